@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "framework/graph/desc.hpp"
+#include "framework/graph/param.hpp"
+
+namespace lightloom {
+
+/// A value for a push constant member or a specialization constant of the same name in the shader.
+struct ShaderValue {
+  std::string name;
+  std::variant<bool, int32_t, uint32_t, float> value;
+};
+
+/// A compute dispatch. `threads` is the number of invocations wanted; the context divides by the shader's local size,
+/// rounding up, so shaders check bounds.
+///
+/// Push constant members and specialization constants are filled by name, from (first match): `values`; the pass's
+/// params (choice as index, boolean as bool/uint); scene features as `has_<feature>`; for a history-range port P:
+/// `P_count` (number of ages bound), `P_first_age`, `P_ring` (layers), `P_newest_layer` (layer of age 0), so that age a
+/// lies in layer (P_newest_layer + P_ring - a) % P_ring; for an optional input P: `P_bound` (bool).
+/// A name that nothing provides is an error.
+struct Dispatch {
+  std::string shader;  ///< file under shaders/, e.g. "box_blur.comp"
+  Extent3 threads;
+  std::vector<ShaderValue> values;
+};
+
+/// A draw of scene triangles by vertex pulling: gl_VertexIndex / 3 counts from `first_triangle`.
+struct Draw {
+  std::string vertex_shader;
+  std::string fragment_shader;
+  uint32_t first_triangle = 0;
+  uint32_t triangle_count = 0;
+  std::string color_port;  ///< output port whose parts are the attachments; fragment outputs `out_<port>_<part>`
+  std::string depth_port;  ///< scratch port, d32_sfloat; cleared to 1, less-or-equal test
+  std::vector<ShaderValue> values;
+};
+
+struct TriangleRange {
+  uint32_t first = 0;
+  uint32_t count = 0;
+};
+
+/// All that a pass can see. Commands recorded one after another see each other's writes: the context separates them.
+class PassContext {
+ public:
+  virtual ~PassContext() = default;
+
+  [[nodiscard]] virtual const ParamSet& params() const = 0;
+  /// Extent of a connected port. Throws Error for a port that the pass type does not declare.
+  [[nodiscard]] virtual Extent3 input_extent(std::string_view port) const = 0;
+  [[nodiscard]] virtual Extent3 output_extent(std::string_view port) const = 0;
+  [[nodiscard]] virtual bool connected(std::string_view input_port) const = 0;
+  [[nodiscard]] virtual TriangleRange static_triangles() const = 0;
+  [[nodiscard]] virtual TriangleRange dynamic_triangles() const = 0;
+
+  /// Fills every part of an output or scratch port with one colour (unsigned formats: cast to unsigned).
+  virtual void clear(std::string_view port, const ClearColor& color) = 0;
+  virtual void dispatch(const Dispatch& dispatch) = 0;
+  virtual void draw(const Draw& draw) = 0;
+};
+
+}  // namespace lightloom

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/graph/access.hpp"
+#include "framework/graph/desc.hpp"
+
+namespace lightloom {
+
+/// `scratch` is an image that only this pass uses within a frame; it can be dumped like an output, never connected.
+enum class Direction : uint8_t { in, out, scratch };
+
+/// One image of a bundle; a plain port has exactly one part with an empty name.
+struct PortPart {
+  std::string name;
+  Format format = Format::rgba16_sfloat;  ///< for inputs only its numeric class is compared
+  std::string doc;
+};
+
+/// What replaces an output of a disabled pass: an input port of the same pass (`input`), or, where `input` is empty,
+/// an image of the output's own shape, cleared to `constant` once.
+struct Bypass {
+  std::string input;
+  ClearColor constant{0, 0, 0, 0};
+};
+
+/// One row of a pass type's port table.
+/// Shader names: an input `normal` is bound to `normal`, part `p` of an input bundle `surface` to `surface_p`; outputs
+/// are the same with the prefix `out_`; scratch has no prefix. An `array` input (history range) is a `texture2DArray`.
+struct Port {
+  std::string name;
+  Direction direction = Direction::in;
+  std::string bundle;  ///< name of the bundle type ("surface", "voxels"); empty for a single image
+  std::vector<PortPart> parts;
+  Dimension dimension = Dimension::d2;
+  ExtentRule extent = ExtentRule::any;
+  std::string like;  ///< with ExtentRule::like: the input port whose extent this port has
+  Access access = Access::none;
+  bool optional = false;  ///< inputs: may be left unconnected
+  bool array = false;     ///< inputs: takes a history range `@a..b`
+  std::optional<Bypass> bypass;
+  std::string doc;
+};
+
+}  // namespace lightloom

@@ -1,0 +1,93 @@
+// What every shader may read of the scene and the frame, bound by name. Mirrored by framework/run/scene_layout.hpp; a
+// test compares the two by reflection. World space: metres, right-handed, y up as in glTF.
+#ifndef LIGHTLOOM_LIB_SCENE
+#define LIGHTLOOM_LIB_SCENE
+
+const uint kHistoryLimit = 16u;      // ages 0..15 of the camera are kept
+const uint kEmissionLimit = 256u;    // emission table; entry 0 is "no emission"
+const uint kHintLimit = 1024u;       // light sample points drawn on the host each frame
+const uint kPunctualLimit = 64u;
+const uint kTexturePageCount = 12u;
+
+// Frame state. `eye.w` is 1 for a perspective camera (xyz: position [m]) and 0 for an orthographic one (xyz: unit
+// direction towards the viewer), so the direction to the viewer is normalize(eye.xyz - position * eye.w).
+layout(std140) uniform FrameBlock {
+  mat4 view_projection[kHistoryLimit];  // [age] world to Vulkan clip space (y down, depth 0..1)
+  vec4 eye[kHistoryLimit];              // [age]
+  mat4 inverse_view_projection;         // age 0
+  uvec4 ids;               // x: frame index, y: seed, z: number of earlier frames that histories hold, w: unused
+  vec4 scene_min;          // bounds over all frames [m]; w: unused
+  vec4 scene_max;
+  vec4 sun_direction;      // xyz: unit direction the light travels in; w: cosine of the angular radius
+  vec4 sun_irradiance;     // rgb on a surface that faces the sun [W m^-2]
+  vec4 environment;        // rgb: radiance, or the scale of environment_map [W m^-2 sr^-1]
+  uvec4 counts;            // x: static triangles, y: dynamic triangles, z: hints, w: punctual lights
+} frame;
+
+// Packed as floats so that std430 has no padding. color: RGBA8 unorm in linear space, as uint bits.
+struct Vertex {
+  float px, py, pz, u0;
+  float nx, ny, nz, v0;
+  float tx, ty, tz, tw;    // w: sign of the bitangent = cross(normal, tangent) * w
+  float u1, v1;
+  uint color;
+  uint reserved;
+};
+struct Triangle { uint a, b, c, material, object; };
+
+layout(std430) readonly buffer VertexBlock { Vertex vertices[]; };
+layout(std430) readonly buffer TriangleBlock { Triangle triangles[]; };   // static first, then dynamic
+
+struct TextureSlot {
+  uint page;               // 0xFFFFFFFF: no texture
+  uint layer;
+  uint texcoord;           // 0 or 1
+  uint sampling;           // bits 0-1 wrap u, 2-3 wrap v (0 repeat, 1 clamp, 2 mirror); bit 4: nearest
+  vec4 linear_transform;   // column-major 2x2: uv' = (x*u + z*v, y*u + w*v) + offset
+  vec2 offset;
+  vec2 reserved;
+};
+
+const uint kAlphaOpaque = 0u;
+const uint kAlphaMask = 1u;      // BLEND is treated as MASK with cutoff 0.5
+struct Material {
+  vec4 base_color;         // linear
+  vec4 emission;           // rgb: factor * strength [W m^-2 sr^-1]; w: luminance threshold below which a texel does not emit
+  vec4 surface;            // metallic, perceptual roughness, specular factor, normal scale
+  vec4 specular;           // rgb: specular colour factor; w: anisotropy strength
+  vec4 shape;              // cos, sin of the anisotropy rotation; alpha cutoff; dielectric F0 at normal incidence from the index of refraction (0.04 at 1.5)
+  uvec4 flags;             // x: alpha mode, y: double sided, z: index into the emission table, w: unlit
+  TextureSlot base_color_texture;          // sRGB page
+  TextureSlot metallic_roughness_texture;  // g: roughness, b: metallic
+  TextureSlot normal_texture;
+  TextureSlot emissive_texture;            // sRGB page
+  TextureSlot anisotropy_texture;          // rg: direction, b: strength
+  TextureSlot specular_texture;            // a: factor
+  TextureSlot specular_color_texture;      // sRGB page
+};
+layout(std430) readonly buffer MaterialBlock { Material materials[]; };
+
+struct Emission {
+  vec4 radiance;           // rgb [W m^-2 sr^-1]; w: area density with which the host draws hints on such a surface [m^-2]
+  vec4 sides;              // x: 1 if both sides emit, else 0
+};
+struct Hint {
+  vec4 position;           // xyz [m]; w: index into the emission table
+  vec4 normal;             // unit geometric normal of the emitter
+};
+const uint kPunctualPoint = 0u;
+const uint kPunctualSpot = 1u;
+const uint kPunctualDirectional = 2u;
+struct PunctualLight {
+  vec4 position;           // xyz [m]; w: range [m], 0 = unlimited
+  vec4 direction;          // xyz: unit direction the light travels in; w: type
+  vec4 intensity;          // rgb: [W sr^-1], directional: irradiance [W m^-2]
+  vec4 cone;               // x: scale, y: offset of the spot's angular attenuation (KHR_lights_punctual)
+};
+layout(std140) uniform LightBlock {
+  Emission emissions[kEmissionLimit];
+  Hint hints[kHintLimit];
+  PunctualLight punctual[kPunctualLimit];
+} lights;
+
+#endif
