@@ -1,0 +1,25 @@
+#include "passes/modulate.hpp"
+
+#include "passes/port_rows.hpp"
+
+namespace lightloom::passes {
+
+PassType make_modulate() {
+  PassType type;
+  type.name = "modulate";
+  type.doc =
+      "Multiplies radiance by the surface's modulation colour and adds its emission; the background shows the "
+      "environment (paper, section 2.5).";
+  Port radiance = image_output_like("radiance", Format::rgba32_sfloat, "surface",
+                                    "rgb: radiance towards the viewer [W m^-2 sr^-1]; a: 1 on a surface, else 0");
+  radiance.bypass = Bypass{"radiance", {}};
+  type.ports = {image_input("radiance", Format::rgba32_sfloat, "radiance divided by the modulation colour"),
+                surface_input("surface", "G-buffer at the size of `radiance`"), radiance};
+  type.reads = FrameState::camera | FrameState::lights;
+  type.record = [](PassContext& context) {
+    context.dispatch({"modulate.comp", context.output_extent("radiance"), {}});
+  };
+  return type;
+}
+
+}  // namespace lightloom::passes

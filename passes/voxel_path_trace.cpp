@@ -1,0 +1,41 @@
+#include "passes/voxel_path_trace.hpp"
+
+#include "passes/port_rows.hpp"
+
+namespace lightloom::passes {
+
+PassType make_voxel_path_trace() {
+  PassType type;
+  type.name = "voxel_path_trace";
+  type.doc =
+      "Global illumination by paths that start at the G-buffer and go on through the voxel grid. Next event estimation "
+      "towards light hints, the sun and punctual lights, combined with Ward importance sampling by the balance "
+      "heuristic; rays are sphere-marched through the distance field (paper, section 2.2).";
+  Port radiance = image_output_like(
+      "radiance", Format::rgba32_sfloat, "surface",
+      "rgb: radiance that the surface reflects to the viewer [W m^-2 sr^-1] divided by the modulation colour, without "
+      "the surface's own emission; a: 1, or 0 where there is no lit surface");
+  radiance.bypass = Bypass{};
+  type.ports = {surface_input("surface", "first hits; one path tree starts at each pixel"),
+                voxels_input("voxels", "what the paths meet after the first hit"),
+                volume_input("distance", "chessboard distance to the nearest occupied voxel [voxels / 255], capped"),
+                radiance};
+  type.params = {
+      {"paths", ParamType::integer, int64_t{1}, 1, 256, {}, "", "paths per pixel and frame"},
+      {"bounces",
+       ParamType::integer,
+       int64_t{3},
+       0,
+       64,
+       {},
+       "",
+       "rays that a path follows after the first hit; 0 leaves the direct light of hints, sun and punctual lights"},
+  };
+  type.reads = FrameState::camera | FrameState::seed | FrameState::lights;
+  type.record = [](PassContext& context) {
+    context.dispatch({"voxel_path_trace.comp", context.output_extent("radiance"), {}});
+  };
+  return type;
+}
+
+}  // namespace lightloom::passes
