@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "framework/base/diagnostics.hpp"
+#include "framework/graph/param.hpp"
+
+namespace lightloom {
+
+/// The graph file as written: every value with its place, nothing resolved. All lists are in file order.
+
+struct TextSpec {
+  std::string text;
+  SourceLocation where;
+};
+
+/// A scalar under `params` or `set`. A string that begins with `$` names a graph param where a pass param stands.
+struct ScalarSpec {
+  std::string name;
+  SourceLocation name_where;
+  ParamValue value;
+  SourceLocation where;
+};
+
+/// "pass.port", "pass.port.part", each with an optional "@k" (k frames ago) or "@a..b".
+struct EdgeSpec {
+  std::string pass;
+  std::string port;
+  std::string part;  ///< empty: the whole port
+  uint32_t first_age = 0;
+  uint32_t last_age = 0;
+  std::string text;
+  SourceLocation where;
+};
+
+/// `name` is an input port of the pass, or the name of an output of the graph.
+struct ConnectionSpec {
+  std::string name;
+  SourceLocation name_where;
+  EdgeSpec edge;
+};
+
+struct PassSpec {
+  std::string name;
+  SourceLocation where;  ///< of the key
+  TextSpec type;
+  std::vector<ConnectionSpec> inputs;
+  std::vector<ScalarSpec> params;
+  bool enabled = true;
+  std::optional<TextSpec> when;
+  std::string doc;
+};
+
+struct SwapSpec {
+  TextSpec pass;  ///< name or glob
+  TextSpec type;
+};
+
+struct VariantSpec {
+  std::string name;
+  SourceLocation where;
+  std::string doc;
+  std::vector<TextSpec> disable;
+  std::vector<ScalarSpec> set;  ///< names are "PARAM" or "PASS.PARAM", PASS may be a glob
+  std::vector<SwapSpec> swap;
+};
+
+struct SizeSpec {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  SourceLocation where;
+};
+
+constexpr uint32_t kMaximumAge = 15;
+constexpr uint32_t kMaximumImageSize = 16384;
+
+struct GraphSpec {
+  std::string file;
+  std::string name;
+  SizeSpec view{1280, 960, {}};
+  SizeSpec trace{640, 480, {}};
+  std::vector<ScalarSpec> params;
+  std::vector<PassSpec> passes;
+  std::vector<ConnectionSpec> outputs;
+  std::vector<VariantSpec> variants;
+};
+
+/// Reads a graph file's text. Reports every problem it finds, and goes on behind each; the result is empty if there was
+/// an error. Never throws.
+[[nodiscard]] std::optional<GraphSpec> parse_graph(std::string_view text, const std::string& file_name,
+                                                   Diagnostics& diagnostics);
+
+/// Parses the text of an edge. On failure returns a sentence that says what is wrong.
+struct EdgeParse {
+  std::optional<EdgeSpec> edge;
+  std::string problem;
+};
+[[nodiscard]] EdgeParse parse_edge(std::string_view text);
+
+/// [a-z][a-z0-9_]*
+[[nodiscard]] bool is_name(std::string_view text);
+
+}  // namespace lightloom

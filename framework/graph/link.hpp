@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/base/diagnostics.hpp"
+#include "framework/graph/graph.hpp"
+#include "framework/graph/graph_spec.hpp"
+#include "framework/graph/pass_type.hpp"
+
+namespace lightloom {
+
+/// What the command line asks for. Applied in this order: each variant in turn (its swap, disable, set), then `swaps`,
+/// `disables`, `sets`. Problems are reported at file "--variant", "--swap", "--disable", "--set", "--dump", "--size",
+/// line 0.
+struct LinkOptions {
+  std::vector<std::string> variants;
+  std::vector<std::pair<std::string, std::string>> swaps;  ///< pass glob, type
+  std::vector<std::string> disables;                       ///< pass globs
+  std::vector<std::pair<std::string, std::string>> sets;   ///< "PARAM" or "PASS.PARAM" (PASS a glob), value text
+  std::optional<std::pair<uint32_t, uint32_t>> view;       ///< width, height [pixels]
+  std::vector<std::string> captures;  ///< globs over "pass.port" and "pass.port.part"; "*" means every value
+};
+
+/// What the graph is linked against.
+struct LinkEnvironment {
+  /// Extent of the voxel grid at a resolution; a cube of that edge where empty.
+  std::function<Extent3(int64_t resolution)> grid_extent;
+  /// Every known feature of a scene, and whether this scene has it; `when` may name these alone.
+  std::vector<std::pair<std::string, bool>> scene_features;
+};
+
+/// Resolves names, params, bypasses and shapes, and culls. Reports every problem; empty if there was an error.
+[[nodiscard]] std::optional<Graph> link(const GraphSpec& spec, const PassRegistry& registry, const LinkOptions& options,
+                                        const LinkEnvironment& environment, Diagnostics& diagnostics);
+
+}  // namespace lightloom

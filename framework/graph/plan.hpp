@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/graph/access.hpp"
+#include "framework/graph/graph.hpp"
+
+namespace lightloom {
+
+enum class Hazard : uint8_t { read_after_write, write_after_read, write_after_write };
+[[nodiscard]] std::string_view to_string(Hazard hazard);
+
+/// Stands for the scene and frame buffers, uploaded by transfer at the start of a frame.
+constexpr ValueId kFrameInputs = std::numeric_limits<ValueId>::max();
+
+/// A memory dependency between all earlier `from` accesses and all later `to` accesses to all layers of a value. No
+/// layout changes: images live in GENERAL. With write_after_read the execution dependency is enough.
+struct Barrier {
+  ValueId value = 0;
+  Access from = Access::none;
+  Access to = Access::none;
+  Hazard hazard = Hazard::read_after_write;
+  bool previous_frame = false;  ///< what it waits for was recorded in an earlier frame
+  std::string reason;
+};
+
+/// Observation of a value: copied to a read-back buffer as soon as it is there, so that nothing lives longer for it.
+struct Copy {
+  ValueId value = 0;
+  uint32_t age = 0;
+  std::vector<Barrier> barriers;  ///< to be recorded before the copy
+};
+
+struct PlanStep {
+  uint32_t pass = 0;              ///< index into Graph::passes
+  std::vector<Barrier> barriers;  ///< to be recorded before the pass
+  std::vector<Copy> copies;       ///< after the pass
+};
+
+/// Every layer of a value is cleared, once, before the first frame.
+struct Clear {
+  ValueId value = 0;
+  ClearColor color{0, 0, 0, 0};
+};
+
+/// What a frame executes, as plain data. One frame in order: frame_start, uploads of frame inputs, inputs_ready,
+/// opening_copies, then each step: barriers, pass, copies.
+///
+/// A pass's first command may be a clear (transfer) although its port declares another access; the barriers here reach
+/// the declared access's stages, so the one who records the clear chains from those stages to the transfer.
+struct Plan {
+  Graph graph;
+  std::vector<Clear> prologue;             ///< constants and rings; once, and again when history is reset
+  std::vector<Barrier> prologue_barriers;  ///< after the clears, before the first frame
+  std::vector<Barrier> frame_start;        ///< last frame's reads of frame inputs before this frame's upload
+  std::vector<Barrier> inputs_ready;       ///< upload before the reads
+  std::vector<Copy> opening_copies;        ///< of values that no pass produces in this frame: constants
+  std::vector<PlanStep> steps;
+};
+
+/// Orders and synchronises. Pure; the same graph gives the same plan.
+[[nodiscard]] Plan compile(const Graph& graph);
+
+/// Readable text: order, params, inputs with ages, outputs with shapes and bytes, barriers with reasons, what was
+/// culled and bypassed, memory and rings.
+[[nodiscard]] std::string print_plan(const Plan& plan);
+
+/// Hash of what is executed: steps, params, values, uses, barriers, copies. What was culled or bypassed, remarks and
+/// positions in the file do not count, so a disabled node hashes as if it had never been written.
+[[nodiscard]] uint64_t plan_hash(const Plan& plan);
+
+struct MemoryUse {
+  uint64_t total = 0;  ///< all images with their rings [bytes]
+  uint64_t rings = 0;  ///< the part of it in rings of more than one layer [bytes]
+};
+[[nodiscard]] MemoryUse memory_use(const Graph& graph);
+
+}  // namespace lightloom

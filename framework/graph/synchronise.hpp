@@ -1,0 +1,18 @@
+#pragma once
+
+#include "framework/graph/plan.hpp"
+
+namespace lightloom {
+
+/// Fills every barrier of a plan whose steps and copies are in place.
+///
+/// Model: frames follow one another on one queue, the same commands each. Every value has one write a frame, so its
+/// life is a fixed round: write, reads of this frame's layer, reads of it as history in later frames, and,
+/// `ring_layers` frames on, the next write to the same layer.
+/// - read after write: once, before the first read that can meet the new layer, and at once for the accesses of all
+///   readers, those of later frames included: whoever comes later finds it visible.
+/// - write after read: before the write, from every reader's stages, in an earlier frame.
+/// - write after write: only where nothing reads in between (scratch, an output nobody uses).
+void synchronise(Plan& plan);
+
+}  // namespace lightloom
