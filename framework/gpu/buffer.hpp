@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "framework/gpu/memory.hpp"
+
+namespace lightloom::gpu {
+
+/// A buffer with its own memory. TRANSFER_SRC and TRANSFER_DST are always among its usages.
+class Buffer {
+ public:
+  /// @param size [bytes], at least 1
+  Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind, std::string name = {});
+
+  [[nodiscard]] VkBuffer get() const { return buffer_.get(); }
+  [[nodiscard]] VkDeviceSize size() const { return size_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+  /// All of it, for MemoryKind upload and readback; empty for `device`.
+  [[nodiscard]] std::span<std::byte> mapped() const { return mapped_; }
+
+ private:
+  std::string name_;
+  VkDeviceSize size_ = 0;
+  MemoryHandle memory_;
+  BufferHandle buffer_;
+  std::span<std::byte> mapped_;
+};
+
+}  // namespace lightloom::gpu

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <string>
+
+#include "framework/gpu/device.hpp"
+
+namespace lightloom::gpu {
+
+/// Where memory lies. The host-visible kinds are always coherent: no flush, no invalidate.
+enum class MemoryKind : uint8_t {
+  device,    ///< fastest for the device; not mapped
+  upload,    ///< the host writes, in order
+  readback,  ///< the host reads; cached where the device has such memory
+};
+
+/// One allocation for one resource. Throws Error(run_failed) that says how much was asked and what the limit is.
+/// @param owner in words, for messages: "image 'trace.radiance' (rgba16_sfloat 640x480)"
+[[nodiscard]] MemoryHandle allocate_memory(const Device& device, const VkMemoryRequirements& requirements,
+                                           MemoryKind kind, const std::string& owner,
+                                           const VkMemoryDedicatedAllocateInfo& dedicated);
+
+[[nodiscard]] std::string bytes_text(uint64_t bytes);  ///< "12.0 MiB (12582912 bytes)"
+
+}  // namespace lightloom::gpu

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lightloom::gpu {
+
+enum class Stage : uint8_t { vertex, fragment, compute };
+[[nodiscard]] std::string to_string(Stage stage);
+
+/// GLSL of one stage. `name` is what messages show; shaders carry no set, binding or varying location: names are the
+/// interface.
+struct ShaderSource {
+  std::string name;
+  std::string text;
+  Stage stage = Stage::compute;
+};
+
+/// SPIR-V 1.6 of one stage.
+struct SpirvModule {
+  std::string name;
+  Stage stage = Stage::compute;
+  std::vector<uint32_t> words;
+};
+
+using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
+
+struct ShaderCompilerOptions {
+  /// Roots for `#include "lib/x.glsl"` and for `compile_files`, searched in order.
+  std::vector<std::filesystem::path> include_directories;
+  std::filesystem::path cache_directory;  ///< made when missing; empty: no cache on disk
+};
+
+struct CompileStatistics {
+  uint32_t compiled = 0;
+  uint32_t from_cache = 0;
+  uint32_t rejected_cache_entries = 0;  ///< damaged ones, compiled anew
+};
+
+/// GLSL (460 unless `#version` says otherwise; GL_GOOGLE_include_directive and GL_EXT_samplerless_texture_functions are
+/// on) to SPIR-V for Vulkan 1.3. One thread at a time.
+class ShaderCompiler {
+ public:
+  explicit ShaderCompiler(ShaderCompilerOptions options);
+
+  /// Compiles the stages of one pipeline together: a resource name has one binding (set 0) in all of them, a varying
+  /// one location. Throws Error(invalid_input): "file:line: message" of the first problem, the others in the hint.
+  [[nodiscard]] std::vector<SpirvModule> compile(std::span<const ShaderSource> stages,
+                                                 const ShaderDefines& defines = {});
+  /// Files found in the include directories (or absolute); the stage is told by the extension .vert, .frag or .comp.
+  [[nodiscard]] std::vector<SpirvModule> compile_files(std::span<const std::string> files,
+                                                       const ShaderDefines& defines = {});
+  [[nodiscard]] const CompileStatistics& statistics() const { return statistics_; }
+
+ private:
+  ShaderCompilerOptions options_;
+  CompileStatistics statistics_;
+};
+
+}  // namespace lightloom::gpu
