@@ -24,12 +24,15 @@ inline std::vector<PortPart> surface_parts() {
   };
 }
 
-/// The paper's three RGBA8 images of the voxel grid (section 2.1); encodings in shaders/lib/voxel_encoding.glsl.
+/// The paper's three RGBA8 images of the voxel grid (section 2.1); encodings in shaders/lib/voxel_encoding.glsl. A voxel
+/// has no side: its normal is that of the front face, and a reader turns it to where its ray came from.
 inline std::vector<PortPart> voxel_parts() {
   return {
       {"albedo", Format::rgba8_unorm, "rgb: square root of the linear base colour; a: 1 where occupied"},
-      {"normal", Format::rgba8_unorm, "azimuth/2pi; polar angle/pi; tangent byte (6+2 bits); metallic"},
-      {"material", Format::rgba8_unorm, "square roots of Ward alpha x and y; specular F0 * 4 (0..0.25), emission index / 255"},
+      {"normal", Format::rgba8_unorm,
+       "spherical, y the pole: azimuth * 256 / 2pi, polar angle * 254 / pi; tangent byte (6+2 bits); metallic"},
+      {"material", Format::rgba8_unorm,
+       "square roots of Ward alpha along the tangent and across it; specular F0 * 4 (0..0.25); emission index / 255"},
   };
 }
 

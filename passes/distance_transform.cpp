@@ -1,0 +1,59 @@
+#include "passes/distance_transform.hpp"
+
+#include "passes/port_rows.hpp"
+
+namespace lightloom::passes {
+namespace {
+
+constexpr float kDistanceOne = 1.0f / 255.0f;
+
+Port volume(const std::string& name, Direction direction, Access access, const std::string& doc) {
+  Port port = image_output_like(name, Format::r8_unorm, "voxels", doc);
+  port.direction = direction;
+  port.dimension = Dimension::d3;
+  port.access = access;
+  return port;
+}
+
+Port scratch_volume(const std::string& name, const std::string& doc) {
+  return volume(name, Direction::scratch, Access::compute_storage_read_write, doc);
+}
+
+void record(PassContext& context) {
+  const Extent3 extent = context.output_extent("distance");
+  for (int32_t axis = 0; axis < 3; ++axis) {
+    context.dispatch({"distance_transform.comp", extent, {{"axis", axis}}});
+  }
+}
+
+}  // namespace
+
+PassType make_distance_transform() {
+  PassType type;
+  type.name = "distance_transform";
+  type.doc =
+      "Chessboard distance to the nearest occupied voxel, exact up to `radius` (the paper's partial distance "
+      "transform, "
+      "section 2.1). Separable: along each axis d' = min over k of max(|k|, d); 0 in an occupied voxel, radius + 1 "
+      "where "
+      "none lies within the radius. Outside the grid is empty. Bypassed, every voxel says 1, so that a march takes "
+      "unit "
+      "steps.";
+  Port distance = volume("distance", Direction::out, Access::compute_storage_write, "distance [voxels / 255]");
+  distance.bypass = Bypass{"", {kDistanceOne, kDistanceOne, kDistanceOne, kDistanceOne}};
+  type.ports = {voxels_input("voxels", "alpha of the albedo image is the occupancy"), distance,
+                scratch_volume("along_x", "distance within the row [voxels / 255]"),
+                scratch_volume("along_xy", "distance within the slice [voxels / 255]")};
+  type.params = {{"radius",
+                  ParamType::integer,
+                  int64_t{4},
+                  1,
+                  31,
+                  {},
+                  "voxels",
+                  "up to where distances are exact; the paper's author used 4"}};
+  type.record = record;
+  return type;
+}
+
+}  // namespace lightloom::passes

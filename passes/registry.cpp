@@ -1,0 +1,33 @@
+#include "passes/registry.hpp"
+
+#include "passes/box_blur.hpp"
+#include "passes/denoise_radial.hpp"
+#include "passes/distance_transform.hpp"
+#include "passes/gather.hpp"
+#include "passes/modulate.hpp"
+#include "passes/resample_surface.hpp"
+#include "passes/temporal_accumulate.hpp"
+#include "passes/tonemap.hpp"
+#include "passes/upsample.hpp"
+#include "passes/voxel_merge.hpp"
+#include "passes/voxel_path_trace.hpp"
+#include "passes/voxelize.hpp"
+
+namespace lightloom::passes {
+
+void register_builtin_passes(PassRegistry& registry) {
+  registry.add(make_voxelize());
+  registry.add(make_voxel_merge());
+  registry.add(make_distance_transform());
+  registry.add(make_gather());
+  registry.add(make_resample_surface());
+  registry.add(make_voxel_path_trace());
+  registry.add(make_temporal_accumulate());
+  registry.add(make_denoise_radial());
+  registry.add(make_box_blur());
+  registry.add(make_upsample());
+  registry.add(make_modulate());
+  registry.add(make_tonemap());
+}
+
+}  // namespace lightloom::passes

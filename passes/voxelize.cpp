@@ -1,0 +1,91 @@
+#include "passes/voxelize.hpp"
+
+#include <algorithm>
+
+#include "passes/port_rows.hpp"
+
+namespace lightloom::passes {
+namespace {
+
+Port voxels_output() {
+  Port port;
+  port.name = "voxels";
+  port.direction = Direction::out;
+  port.bundle = "voxels";
+  port.parts = voxel_parts();
+  port.dimension = Dimension::d3;
+  port.extent = ExtentRule::grid;
+  port.access = Access::compute_storage_write;
+  port.bypass = Bypass{};
+  port.doc = "the grid; empty voxels are 0 throughout";
+  return port;
+}
+
+Port owner_scratch() {
+  Port port;
+  port.name = "owner";
+  port.direction = Direction::scratch;
+  port.parts = {{"", Format::r32_uint, "index of the owning triangle + 1; 0: empty"}};
+  port.dimension = Dimension::d3;
+  port.extent = ExtentRule::grid;
+  port.access = Access::compute_storage_read_write;
+  port.doc = "who owns each voxel";
+  return port;
+}
+
+TriangleRange chosen_triangles(const PassContext& context) {
+  const TriangleRange fixed = context.static_triangles();
+  const TriangleRange moving = context.dynamic_triangles();
+  const std::string& geometry = context.params().choice("geometry");
+  if (geometry == "static") return fixed;
+  if (geometry == "dynamic") return moving;
+  return {fixed.first, fixed.count + moving.count};
+}
+
+/// Invocations along z that share the columns of each large triangle: many where triangles are few, so that a dozen
+/// walls still fill the device.
+uint32_t slice_count(uint32_t triangles) {
+  constexpr uint32_t kWantedInvocations = 65536;
+  constexpr uint32_t kMostSlices = 64;
+  return std::clamp(kWantedInvocations / triangles, 1u, kMostSlices);
+}
+
+void record(PassContext& context) {
+  const TriangleRange range = chosen_triangles(context);
+  context.clear("owner", {0, 0, 0, 0});
+  if (range.count > 0) {
+    context.dispatch({"voxelize_claim.comp",
+                      {range.count, 1, slice_count(range.count)},
+                      {{"first_triangle", range.first}, {"triangle_count", range.count}}});
+  }
+  context.dispatch({"voxelize_resolve.comp", context.output_extent("voxels"), {}});
+}
+
+}  // namespace
+
+PassType make_voxelize() {
+  PassType type;
+  type.name = "voxelize";
+  type.doc =
+      "Voxelizes triangles into the three RGBA8 images of the paper (section 2.1). A voxel is occupied if a triangle "
+      "touches its closed box (supercover; triangle-box test of Schwarz and Seidel 2010). The triangle that is last in "
+      "draw order owns the voxel, by one atomic maximum, and all attributes come from its point nearest to the voxel's "
+      "centre, so a voxel is consistent and every run gives the same bits. Normals are those of the front face.";
+  type.ports = {voxels_output(), owner_scratch()};
+  type.params = {
+      {"geometry", ParamType::choice, std::string("all"), {}, {}, {"static", "dynamic", "all"}, "", "which triangles"},
+      {"resolution",
+       ParamType::integer,
+       int64_t{128},
+       8,
+       512,
+       {},
+       "voxels",
+       "voxels along the longest side of the scene, one voxel of padding at each end included"},
+  };
+  type.reads = FrameState::static_geometry | FrameState::dynamic_geometry | FrameState::materials;
+  type.record = record;
+  return type;
+}
+
+}  // namespace lightloom::passes
