@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "framework/image/host_image.hpp"
+
+namespace lightloom::run {
+
+/// An output or a captured value of one frame.
+struct NamedImage {
+  std::string name;  ///< the output's name, or "pass.port" / "pass.port.part" of the captured value
+  image::HostImage image;
+};
+
+struct PassTime {
+  std::string pass;
+  double milliseconds = 0;  ///< device time between timestamps around the pass; negative where the device has none
+};
+
+/// All that one frame gives to the host.
+struct FrameResult {
+  uint32_t frame = 0;
+  std::vector<NamedImage> outputs;   ///< in the order of the graph's outputs
+  std::vector<NamedImage> captures;  ///< in the order of the plan's captures
+  std::vector<PassTime> times;       ///< in execution order
+};
+
+}  // namespace lightloom::run

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "framework/base/diagnostics.hpp"
+#include "framework/gpu/device.hpp"
+#include "framework/graph/link.hpp"
+#include "framework/graph/pass_type.hpp"
+#include "framework/run/shader_folders.hpp"
+
+namespace lightloom::run {
+
+/// One call of `lightloom render`.
+struct RenderRequest {
+  std::filesystem::path graph;
+  std::filesystem::path scene;
+  LinkOptions link;           ///< variants, disables, swaps, sets, captures (--dump), view size
+  std::string camera;         ///< empty: the scene's first
+  uint32_t seed = 0;
+  uint32_t first_frame = 0;   ///< inclusive
+  uint32_t last_frame = 0;    ///< inclusive
+  double frames_per_second = 30;
+  std::filesystem::path out;  ///< run folder, made if missing
+  gpu::DeviceOptions device;
+  ShaderFolders shaders = default_shader_folders();
+  std::vector<std::string> command_line;  ///< for the provenance record
+};
+
+struct RenderSummary {
+  std::filesystem::path folder;
+  std::vector<std::filesystem::path> images;  ///< the `image` output of each frame, or the first output's files
+  std::vector<std::string> warnings;          ///< of the graph and the scene, and what the validation layers said
+  double milliseconds_per_frame = 0;          ///< median wall time
+};
+
+/// Called after each finished frame.
+using FrameCallback = std::function<void(uint32_t done, uint32_t total)>;
+
+/// Renders the frames one after another and writes the run folder (design, section 5). Problems of the graph file or of
+/// the options go to `diagnostics`, and nothing is written; everything else is thrown as Error.
+/// Returns false when `diagnostics` has errors.
+bool render(const RenderRequest& request, const PassRegistry& registry, const FrameCallback& on_frame,
+            Diagnostics& diagnostics, RenderSummary& summary);
+
+}  // namespace lightloom::run
