@@ -40,9 +40,10 @@ struct JsonMember {
 
 constexpr std::size_t kJsonMaximumDepth = 64;
 
-/// RFC 8259 text to a tree. Columns count bytes from 1; a line ends with LF, CRLF or CR; a leading UTF-8 byte order
-/// mark is skipped. Errors go to `diagnostics`: `json-syntax` (one, at the offending token), `duplicate-key` (each
-/// second key), `json-depth` (nested deeper than kJsonMaximumDepth). Empty result if there was any. Never throws.
+/// RFC 8259 text to a tree. Columns count characters (code points) from 1; a line ends with LF, CRLF or CR; a leading
+/// UTF-8 byte order mark counts for nothing. Problems go to `diagnostics`: `json-syntax` (one, at the offending token)
+/// and `json-depth` (nested deeper than kJsonMaximumDepth) give an empty result; `duplicate-key` (at each second key)
+/// keeps the first, so that the caller can look for further problems. Never throws.
 [[nodiscard]] std::optional<JsonNode> parse_json(std::string_view text, const std::string& file_name,
                                                  Diagnostics& diagnostics);
 

@@ -29,6 +29,6 @@ namespace lightloom {
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 
 /// 'text', with control characters escaped and long text cut, fit for a message.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 }  // namespace lightloom

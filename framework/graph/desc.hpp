@@ -37,8 +37,8 @@ struct ImageDesc {
 
 using ClearColor = std::array<float, 4>;
 
-[[nodiscard]] std::string to_string(const Extent3& extent);      ///< "640x480" or "128x54x79"
-[[nodiscard]] std::string to_string(const ImageDesc& desc);      ///< "rgba16_sfloat 640x480"
-[[nodiscard]] uint64_t byte_size(const ImageDesc& desc);         ///< tightly packed [bytes]
+[[nodiscard]] std::string to_string(const Extent3& extent);  ///< "640x480" or "128x54x79"
+[[nodiscard]] std::string to_string(const ImageDesc& desc);  ///< "rgba16_sfloat 640x480"
+[[nodiscard]] uint64_t byte_size(const ImageDesc& desc);     ///< tightly packed [bytes]
 
 }  // namespace lightloom

@@ -90,8 +90,9 @@ struct GraphSpec {
   std::vector<VariantSpec> variants;
 };
 
-/// Reads a graph file's text. Reports every problem it finds, and goes on behind each; the result is empty if there was
-/// an error. Never throws.
+/// Reads a graph file's text, reporting every problem. What is wrong is left out or empty (an edge without `pass`, a
+/// type without `text`), so that `link` can go on looking for more; the result is empty only where the text is no JSON
+/// object, or one of another version. Ask `diagnostics.has_errors()`. Never throws.
 [[nodiscard]] std::optional<GraphSpec> parse_graph(std::string_view text, const std::string& file_name,
                                                    Diagnostics& diagnostics);
 

@@ -34,7 +34,8 @@ struct LinkEnvironment {
   std::vector<std::pair<std::string, bool>> scene_features;
 };
 
-/// Resolves names, params, bypasses and shapes, and culls. Reports every problem; empty if there was an error.
+/// Resolves names, params, bypasses and shapes, and culls. Reports every problem; empty if `diagnostics` has an error,
+/// those of parse_graph included.
 [[nodiscard]] std::optional<Graph> link(const GraphSpec& spec, const PassRegistry& registry, const LinkOptions& options,
                                         const LinkEnvironment& environment, Diagnostics& diagnostics);
 
