@@ -9,6 +9,12 @@
 
 namespace lightloom::image {
 
+/// How one channel of a format is stored.
+enum class ChannelType : uint8_t { unorm8, half, float32, uint32 };
+
+[[nodiscard]] ChannelType channel_type(Format format);
+[[nodiscard]] size_t channel_bytes(ChannelType type);
+
 /// Texels of one graph value on the host, tightly packed, x fastest, then y, then z, channels innermost.
 struct HostImage {
   ImageDesc desc;
