@@ -29,7 +29,7 @@ PassType make_voxel_path_trace() {
        64,
        {},
        "",
-       "rays that a path follows after the first hit; 0 leaves the direct light of hints, sun and punctual lights"},
+       "times that light may be scattered on its way to the first hit; 0 leaves direct light"},
   };
   type.reads = FrameState::camera | FrameState::seed | FrameState::lights;
   type.record = [](PassContext& context) {

@@ -1,0 +1,53 @@
+// Mean along a surface direction, marched on the screen. See passes/denoise_radial.cpp for the ports and params.
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+
+#include "lib/neighbour.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uniform texture2D surface_tangent;
+uniform writeonly image2D out_radiance;
+
+layout(push_constant) uniform Params {
+  uint axis;   // 0: tangent, 1: bitangent
+  uint taps;
+  float floor_fraction;
+  float distance_fraction;
+  float normal_threshold;
+};
+
+// Marches from the centre along a direction of the world as it appears on the screen, one tap for each pixel that is
+// crossed. If there are more than `taps`, they spread over the whole length.
+void march_side(Centre centre, vec2 start, vec3 direction, float reach_along, inout vec4 sum) {
+  vec2 size = vec2(textureSize(radiance, 0));
+  vec4 origin = frame.view_projection[0] * vec4(centre.position.xyz, 1.0);
+  vec4 slope = frame.view_projection[0] * vec4(direction, 0.0);
+  // Towards the viewer, stop half way: behind the eye nothing can be projected.
+  float reach = slope.w < 0.0 ? min(reach_along, -0.5 * origin.w / slope.w) : reach_along;
+  vec2 path = clip_to_pixel(origin + slope * reach, size) - clip_to_pixel(origin, size);
+  float crossed = max(abs(path.x), abs(path.y));
+  if (!(crossed >= 1.0)) return;
+  float count = min(floor(crossed), float(taps));
+  vec2 stride = path / (count < floor(crossed) ? count : crossed);
+  for (float k = 1.0; k <= count; ++k) add_neighbour(centre, ivec2(floor(start + stride * k)), normal_threshold, sum);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, textureSize(radiance, 0)))) return;
+  Centre centre;
+  if (!load_centre(pixel, floor_fraction * scene_diagonal(), distance_fraction, centre)) {
+    imageStore(out_radiance, pixel, centre.radiance);
+    return;
+  }
+  vec4 tangent = texelFetch(surface_tangent, pixel, 0);
+  vec3 direction = axis == 0u ? tangent.xyz : cross(centre.normal, tangent.xyz);
+  float reach_along = centre.reach * (axis == 0u ? centre.roughness.x : centre.roughness.y);
+  vec4 sum = vec4(centre.radiance.rgb, 1.0);
+  vec2 start = vec2(pixel) + 0.5;
+  march_side(centre, start, direction, reach_along, sum);
+  march_side(centre, start, -direction, reach_along, sum);
+  imageStore(out_radiance, pixel, vec4(sum.rgb / sum.a, centre.radiance.a));
+}

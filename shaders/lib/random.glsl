@@ -1,0 +1,42 @@
+// Random numbers as a pure function of what they are for: no state, no texture, the same on every device.
+#ifndef LIGHTLOOM_LIB_RANDOM
+#define LIGHTLOOM_LIB_RANDOM
+
+// What a group of four numbers decides at one vertex of a path; a new use needs a new constant, so that no two
+// decisions share numbers.
+const uint kDimensionLight = 0u;     // which hint, which punctual light, where on the sun's disc
+const uint kDimensionScatter = 1u;   // which lobe, direction
+
+struct RandomKey {
+  uvec2 pixel;   // below 65536 each
+  uint frame;
+  uint seed;
+  uint path;     // below 65536
+};
+
+// pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020.
+uvec4 pcg4d(uvec4 v) {
+  v = v * 1664525u + 1013904223u;
+  v.x += v.y * v.w;
+  v.y += v.z * v.x;
+  v.z += v.x * v.y;
+  v.w += v.y * v.z;
+  v ^= v >> 16u;
+  v.x += v.y * v.w;
+  v.y += v.z * v.x;
+  v.z += v.x * v.y;
+  v.w += v.y * v.z;
+  return v;
+}
+
+// Uniform in [0, 1 - 2^-24]: 24 bits are what a float holds, so 1 is never reached.
+vec4 uniform_floats(uvec4 bits) { return vec4(bits >> 8u) * (1.0 / 16777216.0); }
+
+// Four independent uniform numbers in [0, 1). `bounce` and `dimension` are below 256.
+vec4 random4(RandomKey key, uint bounce, uint dimension) {
+  uint place = key.pixel.x | (key.pixel.y << 16u);
+  uint use = key.path | (bounce << 16u) | (dimension << 24u);
+  return uniform_floats(pcg4d(uvec4(place, key.frame, use, key.seed)));
+}
+
+#endif

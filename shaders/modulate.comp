@@ -1,0 +1,47 @@
+// Radiance towards the viewer. See passes/modulate.cpp for the ports and params.
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+
+#include "lib/environment.glsl"
+#include "lib/modulation.glsl"
+#include "lib/sampling.glsl"
+#include "lib/scene.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uniform texture2D radiance;
+uniform texture2D surface_position;
+uniform texture2D surface_normal;
+uniform texture2D surface_albedo;
+uniform texture2D surface_material;
+uniform texture2D surface_emission;
+uniform writeonly image2D out_radiance;
+
+vec3 view_direction(ivec2 pixel, ivec2 size) {
+  if (frame.eye[0].w < 0.5) return -frame.eye[0].xyz;
+  vec2 ndc = (vec2(pixel) + 0.5) / vec2(size) * 2.0 - 1.0;
+  vec4 point = frame.inverse_view_projection * vec4(ndc, 0.5, 1.0);
+  return normalize(point.xyz / point.w - frame.eye[0].xyz);
+}
+
+vec3 surface_radiance(ivec2 pixel, vec3 position) {
+  vec4 emission = texelFetch(surface_emission, pixel, 0);
+  vec4 albedo = texelFetch(surface_albedo, pixel, 0);
+  if (emission.w > 0.5) return albedo.rgb + emission.rgb;
+  vec4 material = texelFetch(surface_material, pixel, 0);
+  vec3 to_viewer = normalize(frame.eye[0].xyz - position * frame.eye[0].w);
+  vec3 normal = facing_normal(normalize(texelFetch(surface_normal, pixel, 0).xyz), to_viewer);
+  Bsdf bsdf = Bsdf(albedo.rgb, albedo.w, material.z, material.w, material.xy);
+  return texelFetch(radiance, pixel, 0).rgb * modulation_color(bsdf, dot(normal, to_viewer)) + emission.rgb;
+}
+
+void main() {
+  ivec2 size = textureSize(surface_position, 0);
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, size))) return;
+  vec4 position = texelFetch(surface_position, pixel, 0);
+  vec4 result = position.w > 0.0 ? vec4(surface_radiance(pixel, position.xyz), 1.0)
+                                 : vec4(environment_radiance(view_direction(pixel, size)), 0.0);
+  imageStore(out_radiance, pixel, result);
+}

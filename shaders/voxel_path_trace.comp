@@ -1,0 +1,133 @@
+// Paths from the G-buffer through the voxel grid. See passes/voxel_path_trace.cpp for the ports and params.
+//
+// Vertex 0 is the first hit, vertices 1 to `bounces` are voxels. Every vertex gathers direct light; the ray that leaves
+// it adds what it meets: an emissive voxel (shared with the hints by the balance heuristic) or the environment. So
+// light that was scattered 1 to bounces + 1 times is counted, from every kind of source.
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+
+#include "lib/environment.glsl"
+#include "lib/features.glsl"
+#include "lib/lights.glsl"
+#include "lib/modulation.glsl"
+#include "lib/random.glsl"
+#include "lib/voxel_encoding.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uniform texture2D surface_position;
+uniform texture2D surface_normal;
+uniform texture2D surface_geometric_normal;
+uniform texture2D surface_tangent;
+uniform texture2D surface_albedo;
+uniform texture2D surface_material;
+uniform texture2D surface_emission;
+uniform texture3D voxels_albedo;
+uniform texture3D voxels_normal;
+uniform texture3D voxels_material;
+uniform texture3D distance;
+uniform writeonly image2D out_radiance;
+
+layout(push_constant) uniform Params {
+  uint paths;
+  uint bounces;
+};
+
+// Voxel normals are 0.8 degrees off and tangents up to 10: a sharper lobe would only turn that into speckle.
+const float kVoxelMinimumAlpha = 0.03;
+
+PathVertex surface_vertex(Grid grid, ivec2 pixel) {
+  PathVertex vertex;
+  vec3 position = texelFetch(surface_position, pixel, 0).xyz;
+  vec4 albedo = texelFetch(surface_albedo, pixel, 0);
+  vec4 material = texelFetch(surface_material, pixel, 0);
+  vec3 to_viewer = normalize(frame.eye[0].xyz - position * frame.eye[0].w);
+  vertex.position = position;
+  vertex.geometric_normal = normalize(texelFetch(surface_geometric_normal, pixel, 0).xyz);
+  vec3 normal = facing_normal(normalize(texelFetch(surface_normal, pixel, 0).xyz), to_viewer);
+  vertex.basis = make_frame(normal, texelFetch(surface_tangent, pixel, 0).xyz);
+  vertex.incoming = to_local(vertex.basis, to_viewer);
+  vertex.origin = world_to_grid(grid, position) + vertex.geometric_normal * surface_clearance(vertex.geometric_normal);
+  vertex.bsdf = Bsdf(albedo.rgb, albedo.w, material.z, material.w, material.xy);
+  return vertex;
+}
+
+PathVertex voxel_vertex(Grid grid, MarchHit hit, vec3 hit_position, vec3 direction, VoxelSurface surface) {
+  PathVertex vertex;
+  vec3 normal = dot(surface.normal, direction) <= 0.0 ? surface.normal : -surface.normal;
+  // The march stops anywhere inside the voxel. The centre is the best guess at the depth of the surface; sideways the
+  // position is kept, or light would come in blocks. Off the centre, 1.5 clearances leave the voxels of a plane.
+  vec3 centre = vec3(hit.voxel) + 0.5;
+  vec3 position = hit_position + normal * dot(normal, centre - hit_position);
+  vertex.position = grid_to_world(grid, position);
+  vertex.origin = position + normal * (1.5 * surface_clearance(normal));
+  vertex.geometric_normal = normal;
+  vertex.basis = make_frame(facing_normal(normal, -direction), surface.tangent);
+  vertex.incoming = to_local(vertex.basis, -direction);
+  vec2 alpha = max(surface.ward_alpha, vec2(kVoxelMinimumAlpha));
+  vertex.bsdf = Bsdf(surface.albedo, surface.metallic, surface.f0, surface.f90, alpha);
+  return vertex;
+}
+
+// Radiance of an emissive voxel, weighted against the chance that a hint had found it.
+vec3 voxel_emission(VoxelSurface surface, vec3 direction, float distance_squared, BsdfSample scatter) {
+  if (!has_emissive || surface.emission == 0u) return vec3(0.0);
+  Emission emission = lights.emissions[surface.emission];
+  float cosine = -dot(surface.normal, direction);
+  if (emission.sides.x > 0.5) cosine = abs(cosine);
+  if (cosine <= 0.0) return vec3(0.0);
+  if (scatter.mirror) return emission.radiance.rgb;
+  return emission.radiance.rgb * balance_weight(scatter.pdf, hint_pdf(surface.emission, distance_squared, cosine));
+}
+
+vec3 trace_path(Grid grid, PathVertex vertex, RandomKey key) {
+  vec3 radiance = vec3(0.0);
+  vec3 throughput = vec3(1.0);
+  for (uint bounce = 0u; bounce <= bounces; ++bounce) {
+    vec4 light_random = random4(key, bounce, kDimensionLight);
+    radiance += throughput * direct_light(grid, distance, voxels_material, vertex, light_random);
+    // The last ray only looks for light, so there must be some to find.
+    if (bounce == bounces && !has_emissive && !has_environment && !has_sun) break;
+    BsdfSample scatter = bsdf_sample(vertex.bsdf, vertex.incoming, random4(key, bounce, kDimensionScatter).xyz);
+    vec3 direction = to_world(vertex.basis, scatter.direction);
+    throughput *= scatter.weight;
+    if (throughput == vec3(0.0) || dot(direction, vertex.geometric_normal) <= 0.0) break;
+    MarchHit hit = march(distance, vertex.origin, direction, 1e30);
+    if (!hit.hit) {
+      radiance += throughput * environment_radiance(direction);
+      if (scatter.mirror) radiance += throughput * sun_disc_radiance(direction);
+      break;
+    }
+    VoxelSurface surface =
+        decode_voxel(texelFetch(voxels_albedo, hit.voxel, 0), texelFetch(voxels_normal, hit.voxel, 0),
+                     texelFetch(voxels_material, hit.voxel, 0));
+    vec3 hit_position = vertex.origin + direction * hit.t;
+    vec3 from = vertex.position;
+    vertex = voxel_vertex(grid, hit, hit_position, direction, surface);
+    vec3 path = vertex.position - from;
+    radiance += throughput * voxel_emission(surface, direction, dot(path, path), scatter);
+  }
+  return radiance;
+}
+
+void main() {
+  ivec2 size = textureSize(surface_position, 0);
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, size))) return;
+  bool lit = texelFetch(surface_position, pixel, 0).w > 0.0 && texelFetch(surface_emission, pixel, 0).w < 0.5;
+  vec3 sum = vec3(0.0);
+  if (lit) {
+    Grid grid = scene_grid(textureSize(distance, 0));
+    PathVertex first = surface_vertex(grid, pixel);
+    vec3 modulation = modulation_color(first.bsdf, first.incoming.z);
+    RandomKey key = RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u);
+    for (key.path = 0u; key.path < paths; ++key.path) {
+      vec3 radiance = trace_path(grid, first, key);
+      // Nothing that is not a number may reach the filters, which would spread it; infinities end at half's largest.
+      sum += is_finite(radiance) ? min(radiance / modulation, vec3(65504.0)) : vec3(0.0);
+    }
+    sum /= float(paths);
+  }
+  imageStore(out_radiance, pixel, vec4(sum, lit ? 1.0 : 0.0));
+}
