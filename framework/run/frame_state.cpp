@@ -17,7 +17,8 @@ constexpr float kNearToFar = 1e-4f;
 float farthest_corner(const glm::mat4& camera_from_world, const scene::Bounds& bounds) {
   float farthest = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 world((corner & 1) != 0 ? bounds.max.x : bounds.min.x, (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
+    const glm::vec3 world((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
+                          (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
                           (corner & 4) != 0 ? bounds.max.z : bounds.min.z);
     farthest = std::max(farthest, std::abs((camera_from_world * glm::vec4(world, 1)).z));
   }

@@ -22,7 +22,7 @@ struct View {
 
 /// What a frame's blocks are made from.
 struct FrameInputs {
-  uint32_t frame = 0;           ///< absolute frame index
+  uint32_t frame = 0;  ///< absolute frame index
   uint32_t seed = 0;
   uint32_t history_length = 0;  ///< earlier frames that the history rings hold
   std::vector<View> views;      ///< [age], newest first, 1 to kHistoryLimit of them

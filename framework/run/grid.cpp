@@ -6,8 +6,8 @@
 namespace lightloom::run {
 namespace {
 
-// A float resolves 6e-8 of its magnitude; a grid of up to 512 voxels needs some thousand steps to be of use.
-constexpr float kResolvable = 1e-5f;
+// A float resolves 6e-8 of its magnitude: bounds smaller than a few such steps are a point.
+constexpr float kResolvable = 1e-6f;
 constexpr float kLeastLength = 1e-20f;
 
 glm::vec3 finite_or_zero(glm::vec3 value) {
@@ -40,9 +40,10 @@ Grid make_grid(glm::vec3 bounds_min, glm::vec3 bounds_max, uint32_t resolution) 
   grid.voxel = longest / static_cast<float>(resolution - 2);
   grid.extent = {voxels_along(size.x, grid.voxel, resolution), voxels_along(size.y, grid.voxel, resolution),
                  voxels_along(size.z, grid.voxel, resolution)};
-  // Bounds of one point or too small: every axis needs the resolution, or the shader could not tell the voxel size
-  // from the extent.
-  if (largest(size) < longest) grid.extent = {resolution, resolution, resolution};
+  if (largest(size) < longest) {
+    grid.voxel = longest;
+    grid.extent = {3, 3, 3};
+  }
   const glm::vec3 voxels(grid.extent.width, grid.extent.height, grid.extent.depth);
   grid.origin = 0.5f * (low + high) - 0.5f * grid.voxel * voxels;
   return grid;

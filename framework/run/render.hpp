@@ -18,11 +18,11 @@ namespace lightloom::run {
 struct RenderRequest {
   std::filesystem::path graph;
   std::filesystem::path scene;
-  LinkOptions link;           ///< variants, disables, swaps, sets, captures (--dump), view size
-  std::string camera;         ///< empty: the scene's first
+  LinkOptions link;    ///< variants, disables, swaps, sets, captures (--dump), view size
+  std::string camera;  ///< empty: the scene's first
   uint32_t seed = 0;
-  uint32_t first_frame = 0;   ///< inclusive
-  uint32_t last_frame = 0;    ///< inclusive
+  uint32_t first_frame = 0;  ///< inclusive
+  uint32_t last_frame = 0;   ///< inclusive
   double frames_per_second = 30;
   std::filesystem::path out;  ///< run folder, made if missing
   gpu::DeviceOptions device;

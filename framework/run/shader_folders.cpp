@@ -34,12 +34,15 @@ fs::path source_folder() {
   if (fs::is_directory(installed, ignored)) return installed;
   const fs::path built_from = LIGHTLOOM_SHADER_SOURCE_DIR;
   if (fs::is_directory(built_from, ignored)) return built_from;
-  throw Error(ExitCode::run_failed, "the shaders are neither in '" + installed.string() + "' nor in '" + built_from.string() + "'",
+  throw Error(ExitCode::run_failed,
+              "the shaders are neither in '" + installed.string() + "' nor in '" + built_from.string() + "'",
               "set LIGHTLOOM_SHADERS to the folder 'shaders' of the source tree");
 }
 
 }  // namespace
 
-ShaderFolders default_shader_folders() { return {.sources = {source_folder()}, .cache = cache_folder()}; }
+ShaderFolders default_shader_folders() {
+  return {.sources = {source_folder()}, .cache = cache_folder()};
+}
 
 }  // namespace lightloom::run

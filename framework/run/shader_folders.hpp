@@ -11,9 +11,9 @@ struct ShaderFolders {
   std::filesystem::path cache;                 ///< SPIR-V cache; made if missing
 };
 
-/// Sources: $LIGHTLOOM_SHADERS if set, else `shaders/` of the installation or of the source tree that built the program.
-/// Cache: $LIGHTLOOM_CACHE, else $XDG_CACHE_HOME/lightloom, else ~/.cache/lightloom, else a folder in the temporary
-/// folder. Throws Error(run_failed) when no source folder exists.
+/// Sources: $LIGHTLOOM_SHADERS if set, else `shaders/` of the installation or of the source tree that built the
+/// program. Cache: $LIGHTLOOM_CACHE, else $XDG_CACHE_HOME/lightloom, else ~/.cache/lightloom, else a folder in the
+/// temporary folder. Throws Error(run_failed) when no source folder exists.
 [[nodiscard]] ShaderFolders default_shader_folders();
 
 }  // namespace lightloom::run

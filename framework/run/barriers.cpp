@@ -1,0 +1,25 @@
+#include "framework/run/barriers.hpp"
+
+namespace lightloom::run {
+
+void record_barriers(VkCommandBuffer commands, std::span<const Barrier> barriers) {
+  if (barriers.empty()) return;
+  VkMemoryBarrier2 memory{};
+  memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+  for (const Barrier& barrier : barriers) {
+    const AccessInfo& from = access_info(barrier.from);
+    const AccessInfo& to = access_info(barrier.to);
+    memory.srcStageMask |= from.stages;
+    memory.dstStageMask |= to.stages;
+    if (barrier.hazard == Hazard::write_after_read) continue;  // an execution dependency is enough
+    memory.srcAccessMask |= from.access;
+    memory.dstAccessMask |= to.access;
+  }
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &memory;
+  vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+}  // namespace lightloom::run

@@ -1,0 +1,31 @@
+#include "framework/run/compile_graph.hpp"
+
+#include "framework/base/file.hpp"
+#include "framework/graph/graph_spec.hpp"
+#include "framework/run/grid.hpp"
+
+namespace lightloom::run {
+
+LinkEnvironment link_environment(const scene::Scene* scene) {
+  LinkEnvironment environment;
+  const scene::Bounds bounds = scene != nullptr ? scene->bounds : scene::Bounds{glm::vec3(0), glm::vec3(1)};
+  environment.grid_extent = [bounds](int64_t resolution) {
+    return grid_extent(bounds.min, bounds.max, static_cast<uint32_t>(resolution));
+  };
+  environment.scene_features = (scene != nullptr ? scene->features : scene::Features{}).named();
+  if (scene == nullptr)
+    for (auto& [name, present] : environment.scene_features) present = true;
+  return environment;
+}
+
+std::optional<Plan> compile_graph(const std::filesystem::path& file, const PassRegistry& registry,
+                                  const LinkOptions& options, const scene::Scene* scene, Diagnostics& diagnostics) {
+  const std::string text = read_text_file(file);
+  const std::optional<GraphSpec> spec = parse_graph(text, file.string(), diagnostics);
+  if (!spec) return std::nullopt;
+  const std::optional<Graph> graph = link(*spec, registry, options, link_environment(scene), diagnostics);
+  if (!graph) return std::nullopt;
+  return compile(*graph);
+}
+
+}  // namespace lightloom::run

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "framework/base/diagnostics.hpp"
+#include "framework/graph/link.hpp"
+#include "framework/graph/pass_type.hpp"
+#include "framework/graph/plan.hpp"
+#include "framework/scene/scene.hpp"
+
+namespace lightloom::run {
+
+/// What a graph is linked against for this scene; without one, a unit cube that has every feature.
+[[nodiscard]] LinkEnvironment link_environment(const scene::Scene* scene);
+
+/// Reads, parses, links and compiles a graph file. Empty if `diagnostics` has errors. Throws Error(invalid_input) when
+/// the file cannot be read.
+[[nodiscard]] std::optional<Plan> compile_graph(const std::filesystem::path& file, const PassRegistry& registry,
+                                                const LinkOptions& options, const scene::Scene* scene,
+                                                Diagnostics& diagnostics);
+
+}  // namespace lightloom::run

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "framework/gpu/device.hpp"
+#include "framework/gpu/timestamps.hpp"
+#include "framework/graph/plan.hpp"
+#include "framework/run/frame_result.hpp"
+#include "framework/run/pass_recorder.hpp"
+#include "framework/run/readback.hpp"
+#include "framework/run/scene_resources.hpp"
+#include "framework/run/shader_folders.hpp"
+#include "framework/run/value_images.hpp"
+
+namespace lightloom::run {
+
+struct ExecutorOptions {
+  ShaderFolders shaders;
+  std::string camera;  ///< empty: the scene's first
+  uint32_t seed = 0;
+  double frames_per_second = 30;  ///< animation time of frame f is f / frames_per_second
+};
+
+/// Turns a plan into Vulkan objects and runs frames. Owns the images and history rings; passes own nothing.
+class Executor {
+ public:
+  /// `device` and `scene` outlive the executor. Throws Error for a camera that the scene lacks, for values beyond the
+  /// device's limits, and for shaders that do not compile.
+  Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, const ExecutorOptions& options);
+
+  /// Runs frame number `frame` after the frames run so far, which are its history, and waits for it.
+  [[nodiscard]] FrameResult run_frame(uint32_t frame);
+
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+  /// Device memory of all values with their rings [bytes].
+  [[nodiscard]] uint64_t value_bytes() const { return images_.bytes(); }
+
+ private:
+  void record_frame(VkCommandBuffer commands);
+  void record_copies(VkCommandBuffer commands, const std::vector<Copy>& copies) const;
+  [[nodiscard]] FrameResult collect(uint32_t frame) const;
+
+  gpu::Device& device_;
+  Plan plan_;
+  ValueImages images_;
+  Readback readback_;
+  SceneResources scene_;
+  Placeholders placeholders_;
+  ShaderLibrary shaders_;
+  gpu::DescriptorAllocator descriptors_;
+  gpu::TimestampPool timestamps_;
+  uint64_t frame_count_ = 0;
+};
+
+}  // namespace lightloom::run

@@ -1,0 +1,110 @@
+#include "framework/run/pass_bindings.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "framework/base/error.hpp"
+
+namespace lightloom::run {
+namespace {
+
+ShaderValue shader_value(const ParamSet& params, const ParamSet::Entry& entry) {
+  const std::string& name = entry.param->name;
+  switch (entry.param->type) {
+    case ParamType::boolean:
+      return {name, params.boolean(name)};
+    case ParamType::integer:
+      return {name, static_cast<int32_t>(params.integer(name))};
+    case ParamType::real:
+      return {name, static_cast<float>(params.real(name))};
+    case ParamType::choice:
+      return {name, params.choice_index(name)};
+  }
+  throw Error(ExitCode::run_failed, "param '" + name + "' has no known type");
+}
+
+struct DeclaredRead {
+  std::string_view binding;
+  std::array<FrameState, 2> any_of;
+};
+
+/// FrameBlock is open to all: it holds the bounds of the scene, which never change.
+constexpr std::array kDeclaredReads = {
+    DeclaredRead{"VertexBlock", {FrameState::static_geometry, FrameState::dynamic_geometry}},
+    DeclaredRead{"TriangleBlock", {FrameState::static_geometry, FrameState::dynamic_geometry}},
+    DeclaredRead{"MaterialBlock", {FrameState::materials, FrameState::materials}},
+    DeclaredRead{"texture_pages", {FrameState::materials, FrameState::materials}},
+    DeclaredRead{"LightBlock", {FrameState::lights, FrameState::lights}},
+    DeclaredRead{"environment_map", {FrameState::lights, FrameState::lights}},
+};
+
+}  // namespace
+
+gpu::ResourceMap port_resources(const GraphPass& pass, const ValueImages& images, uint64_t frame_count) {
+  gpu::ResourceMap resources;
+  for (const Use& use : pass.inputs) {
+    const gpu::ImageView view =
+        use.array ? images.array_view(use.value) : images.view(use.value, use.first_age, frame_count);
+    resources.emplace(use.shader_name, gpu::resource(view));
+  }
+  for (const std::vector<Use>* uses : {&pass.outputs, &pass.scratch})
+    for (const Use& use : *uses)
+      resources.emplace(use.shader_name, gpu::resource(images.view(use.value, 0, frame_count)));
+  return resources;
+}
+
+std::vector<ShaderValue> known_shader_values(const GraphPass& pass, const ValueImages& images, uint64_t frame_count,
+                                             const std::vector<std::pair<std::string, bool>>& features) {
+  std::vector<ShaderValue> values;
+  for (const ParamSet::Entry& entry : pass.params.entries()) values.push_back(shader_value(pass.params, entry));
+  for (const auto& [name, present] : features) values.push_back({"has_" + name, present});
+  for (const Use& use : pass.inputs) {
+    if (!use.array) continue;
+    values.push_back({use.port + "_count", use.last_age - use.first_age + 1});
+    values.push_back({use.port + "_first_age", use.first_age});
+    values.push_back({use.port + "_ring", images.ring(use.value)});
+    values.push_back({use.port + "_newest_layer", images.newest(use.value, frame_count)});
+  }
+  for (const Port& port : pass.type->ports) {
+    if (port.direction != Direction::in || !port.optional) continue;
+    const auto& missing = pass.unconnected;
+    values.push_back({port.name + "_bound", std::find(missing.begin(), missing.end(), port.name) == missing.end()});
+  }
+  return values;
+}
+
+std::vector<ShaderValue> specialization_values(const gpu::Reflection& reflection,
+                                               const std::vector<ShaderValue>& values) {
+  std::vector<ShaderValue> chosen;
+  for (const gpu::SpecializationConstant& constant : reflection.constants) {
+    const auto found = std::find_if(values.begin(), values.end(),
+                                    [&](const ShaderValue& value) { return value.name == constant.name; });
+    if (found != values.end()) chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+void require_declared_read(const GraphPass& pass, std::string_view binding, std::string_view shader) {
+  const auto* row = std::find_if(kDeclaredReads.begin(), kDeclaredReads.end(),
+                                 [&](const DeclaredRead& read) { return read.binding == binding; });
+  if (row == kDeclaredReads.end()) return;
+  const bool declared = std::any_of(row->any_of.begin(), row->any_of.end(),
+                                    [&](FrameState state) { return contains(pass.type->reads, state); });
+  if (declared) return;
+  throw Error(ExitCode::run_failed,
+              "pass '" + pass.name + "' (" + pass.type->name + "): shader '" + std::string(shader) + "' reads '" +
+                  std::string(binding) + "', which the pass type does not declare among what it reads",
+              "add the frame state to PassType::reads");
+}
+
+bool names_unconnected_input(const GraphPass& pass, std::string_view binding) {
+  return std::any_of(pass.unconnected.begin(), pass.unconnected.end(), [&](const std::string& port_name) {
+    const Port* port = pass.type->find_port(port_name, Direction::in);
+    if (port == nullptr) return false;
+    return std::any_of(port->parts.begin(), port->parts.end(), [&](const PortPart& part) {
+      return binding == (part.name.empty() ? port->name : port->name + "_" + part.name);
+    });
+  });
+}
+
+}  // namespace lightloom::run

@@ -1,0 +1,159 @@
+#include "framework/run/pass_recorder.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "framework/base/error.hpp"
+#include "framework/gpu/rendering.hpp"
+#include "framework/gpu/transfer.hpp"
+#include "framework/run/pass_bindings.hpp"
+
+namespace lightloom::run {
+namespace {
+
+std::string describe(const GraphPass& pass) {
+  return "pass '" + pass.name + "' (" + pass.type->name + ")";
+}
+
+[[noreturn]] void fail(const GraphPass& pass, const std::string& what) {
+  throw Error(ExitCode::run_failed, describe(pass) + ": " + what);
+}
+
+uint32_t groups(uint32_t threads, uint32_t local_size) {
+  return (threads + local_size - 1) / local_size;
+}
+
+}  // namespace
+
+const gpu::ShaderProgram& ShaderLibrary::program(const std::vector<std::string>& files) {
+  const auto found = programs_.find(files);
+  if (found != programs_.end()) return found->second;
+  return programs_.emplace(files, gpu::make_program(compiler_.compile_files(files))).first->second;
+}
+
+PassRecorder::PassRecorder(const RecordingEnvironment& environment, const Graph& graph, const GraphPass& pass)
+    : environment_(environment),
+      graph_(graph),
+      pass_(pass),
+      resources_(port_resources(pass, *environment.images, environment.frame_count)),
+      known_values_(
+          known_shader_values(pass, *environment.images, environment.frame_count, environment.scene->features)) {}
+
+Extent3 PassRecorder::input_extent(std::string_view port) const {
+  for (const Use& use : pass_.inputs)
+    if (use.port == port) return graph_.values[use.value].desc.extent;
+  fail(pass_, "has no connected input '" + std::string(port) + "'");
+}
+
+Extent3 PassRecorder::output_extent(std::string_view port) const {
+  for (const std::vector<Use>* uses : {&pass_.outputs, &pass_.scratch})
+    for (const Use& use : *uses)
+      if (use.port == port) return graph_.values[use.value].desc.extent;
+  fail(pass_, "has no output '" + std::string(port) + "'");
+}
+
+bool PassRecorder::connected(std::string_view input_port) const {
+  return std::any_of(pass_.inputs.begin(), pass_.inputs.end(), [&](const Use& use) { return use.port == input_port; });
+}
+
+void PassRecorder::separate_commands() {
+  if (recorded_) gpu::record_full_barrier(environment_.commands);
+  recorded_ = true;
+}
+
+void PassRecorder::clear(std::string_view port, const ClearColor& color) {
+  // The plan's barriers reach the stages of the port's declared access; the full barriers chain them to the transfer.
+  gpu::record_full_barrier(environment_.commands);
+  bool any = false;
+  for (const std::vector<Use>* uses : {&pass_.outputs, &pass_.scratch}) {
+    for (const Use& use : *uses) {
+      if (use.port != port) continue;
+      const ValueLayer layer = environment_.images->layer(use.value, 0, environment_.frame_count);
+      record_clear(environment_.commands, *layer.image, layer.layer, color);
+      any = true;
+    }
+  }
+  if (!any) fail(pass_, "clears '" + std::string(port) + "', which is neither an output nor a scratch port");
+  gpu::record_full_barrier(environment_.commands);
+  recorded_ = false;
+}
+
+std::vector<ShaderValue> PassRecorder::values_for(const gpu::Reflection& reflection,
+                                                  const std::vector<ShaderValue>& own) const {
+  std::vector<ShaderValue> values;
+  const auto resolve = [&](const std::string& name) {
+    for (const std::vector<ShaderValue>* source : {&own, &known_values_})
+      for (const ShaderValue& value : *source)
+        if (value.name == name) return value;
+    fail(pass_, "shader '" + reflection.name + "' has a constant '" + name +
+                    "', which is neither a param, nor a feature of scenes, nor given by the pass");
+  };
+  for (const gpu::SpecializationConstant& constant : reflection.constants) values.push_back(resolve(constant.name));
+  for (const gpu::BlockMember& member : reflection.push_constants) values.push_back(resolve(member.name));
+  return values;
+}
+
+VkDescriptorSet PassRecorder::bind_resources(const gpu::Pipeline& pipeline) const {
+  gpu::ResourceMap stand_ins;
+  const auto lookup = [&](const gpu::Binding& binding) -> const gpu::Resource* {
+    if (const auto own = resources_.find(binding.name); own != resources_.end()) return &own->second;
+    if (const auto shared = environment_.scene->resources.find(binding.name);
+        shared != environment_.scene->resources.end()) {
+      require_declared_read(pass_, binding.name, pipeline.reflection().name);
+      return &shared->second;
+    }
+    if (!names_unconnected_input(pass_, binding.name)) return nullptr;
+    return &stand_ins.emplace(binding.name, gpu::resource(environment_.placeholders->view(binding))).first->second;
+  };
+  return environment_.descriptors->allocate(pipeline, lookup);
+}
+
+void PassRecorder::dispatch(const Dispatch& dispatch) {
+  const gpu::ShaderProgram& program = environment_.shaders->program({dispatch.shader});
+  const std::vector<ShaderValue> values = values_for(program.reflection, dispatch.values);
+  const std::vector<ShaderValue> constants = specialization_values(program.reflection, values);
+  const gpu::Pipeline& pipeline = environment_.shaders->pipelines().compute(program, constants);
+  separate_commands();
+  pipeline.bind(environment_.commands, bind_resources(pipeline),
+                gpu::encode_push_constants(pipeline.reflection(), values));
+  const auto& local = program.reflection.local_size;
+  vkCmdDispatch(environment_.commands, groups(dispatch.threads.width, local[0]),
+                groups(dispatch.threads.height, local[1]), groups(dispatch.threads.depth, local[2]));
+}
+
+const Use& PassRecorder::written_use(std::string_view shader_name) const {
+  for (const std::vector<Use>* uses : {&pass_.outputs, &pass_.scratch})
+    for (const Use& use : *uses)
+      if (use.shader_name == shader_name) return use;
+  fail(pass_, "draws into '" + std::string(shader_name) + "', which is neither an output nor a scratch port");
+}
+
+gpu::ImageView PassRecorder::written_view(const Use& use) const {
+  return environment_.images->view(use.value, 0, environment_.frame_count);
+}
+
+void PassRecorder::draw(const Draw& draw) {
+  const gpu::ShaderProgram& program = environment_.shaders->program({draw.vertex_shader, draw.fragment_shader});
+  std::vector<gpu::ColorTarget> colors;
+  gpu::AttachmentFormats formats;
+  for (const gpu::FragmentOutput& output : program.reflection.outputs) {
+    const gpu::ImageView view = written_view(written_use(output.name));
+    colors.push_back({view, {}});
+    formats.colors.push_back(view.format);
+  }
+  const Use& depth_use = written_use(draw.depth_port);
+  const gpu::ImageView depth = written_view(depth_use);
+  formats.depth = depth.format;
+  const std::vector<ShaderValue> values = values_for(program.reflection, draw.values);
+  const gpu::Pipeline& pipeline =
+      environment_.shaders->pipelines().graphics(program, specialization_values(program.reflection, values), formats);
+  separate_commands();
+  const Extent3 extent = graph_.values[depth_use.value].desc.extent;
+  gpu::begin_rendering(environment_.commands, {extent.width, extent.height}, colors, gpu::DepthTarget{depth, 1.0f});
+  pipeline.bind(environment_.commands, bind_resources(pipeline),
+                gpu::encode_push_constants(pipeline.reflection(), values));
+  vkCmdDraw(environment_.commands, draw.triangle_count * 3, 1, draw.first_triangle * 3, 0);
+  vkCmdEndRendering(environment_.commands);
+}
+
+}  // namespace lightloom::run

@@ -1,0 +1,97 @@
+#include "framework/run/provenance.hpp"
+
+#include <algorithm>
+#include <string>
+#include <variant>
+
+#include "framework/base/hash.hpp"
+
+namespace lightloom::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const ParamValue& value) {
+  return std::visit([](const auto& held) { return Json(held); }, value);
+}
+
+Json remarks(const std::vector<PassRemark>& list) {
+  Json result = Json::array();
+  for (const PassRemark& remark : list) result.push_back({{"pass", remark.pass}, {"reason", remark.reason}});
+  return result;
+}
+
+Json vector_json(const glm::vec3& vector) {
+  return Json::array({vector.x, vector.y, vector.z});
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+Json device_record(const gpu::DeviceInfo& info) {
+  return {{"name", info.name},
+          {"type", gpu::to_string(info.type)},
+          {"driver", info.driver},
+          {"driver_info", info.driver_info},
+          {"api_version", info.api_version_text()},
+          {"uuid", info.uuid_text()}};
+}
+
+Json scene_record(const scene::Scene& scene) {
+  Json features = Json::object();
+  for (const auto& [name, present] : scene.features.named()) features[name] = present;
+  return {{"file", scene.file.generic_string()},
+          {"triangles", scene.triangles.size()},
+          {"static_triangles", scene.static_triangle_count},
+          {"vertices", scene.vertices.size()},
+          {"materials", scene.materials.size()},
+          {"images", scene.images.size()},
+          {"bounds", {{"min", vector_json(scene.bounds.min)}, {"max", vector_json(scene.bounds.max)}}},
+          {"features", features}};
+}
+
+Json graph_record(const Plan& plan) {
+  const Graph& graph = plan.graph;
+  Json params = Json::object();
+  for (const auto& [name, value] : graph.params) params[name] = to_json(value);
+  Json outputs = Json::object();
+  for (const GraphOutput& output : graph.outputs) outputs[output.name] = value_name(graph.values[output.value]);
+  const MemoryUse memory = memory_use(graph);
+  return {{"name", graph.name},
+          {"plan_hash", hex(plan_hash(plan))},
+          {"view", {{"width", graph.view.width}, {"height", graph.view.height}}},
+          {"trace", {{"width", graph.trace.width}, {"height", graph.trace.height}}},
+          {"params", params},
+          {"outputs", outputs},
+          {"culled", remarks(graph.culled)},
+          {"bypassed", remarks(graph.bypassed)},
+          {"notes", graph.notes},
+          {"memory", {{"values_bytes", memory.total}, {"history_rings_bytes", memory.rings}}}};
+}
+
+Json pass_records(const Plan& plan, const std::vector<std::vector<PassTime>>& frames) {
+  Json records = Json::array();
+  for (size_t step = 0; step < plan.steps.size(); ++step) {
+    const GraphPass& pass = plan.graph.passes[plan.steps[step].pass];
+    Json params = Json::object();
+    for (const ParamSet::Entry& entry : pass.params.entries()) params[entry.param->name] = to_json(entry.value);
+    std::vector<double> times;
+    for (const std::vector<PassTime>& frame : frames) times.push_back(frame.at(step).milliseconds);
+    const bool known = std::all_of(times.begin(), times.end(), [](double time) { return time >= 0; });
+    records.push_back({{"pass", pass.name},
+                       {"type", pass.type->name},
+                       {"version", pass.type->version},
+                       {"params", params},
+                       {"median_ms", known ? Json(median(times)) : Json()},
+                       {"frames_ms", known ? Json(times) : Json()}});
+  }
+  return records;
+}
+
+}  // namespace lightloom::run

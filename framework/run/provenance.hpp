@@ -1,0 +1,24 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "framework/gpu/device.hpp"
+#include "framework/graph/plan.hpp"
+#include "framework/run/frame_result.hpp"
+#include "framework/scene/scene.hpp"
+
+namespace lightloom::run {
+
+[[nodiscard]] nlohmann::ordered_json device_record(const gpu::DeviceInfo& info);
+[[nodiscard]] nlohmann::ordered_json scene_record(const scene::Scene& scene);
+/// Name, hash of the plan, sizes, params, outputs, what was culled and bypassed, memory.
+[[nodiscard]] nlohmann::ordered_json graph_record(const Plan& plan);
+/// One entry a pass in execution order: name, type, version, params, time of each frame and their median [ms]; times
+/// are null where the device has no timestamps.
+[[nodiscard]] nlohmann::ordered_json pass_records(const Plan& plan, const std::vector<std::vector<PassTime>>& frames);
+
+/// Middle value; mean of the two middle ones for an even number. 0 for none.
+[[nodiscard]] double median(std::vector<double> values);
+
+}  // namespace lightloom::run

@@ -1,0 +1,46 @@
+#include "framework/run/readback.hpp"
+
+#include <array>
+
+#include "framework/gpu/transfer.hpp"
+#include "framework/run/barriers.hpp"
+
+namespace lightloom::run {
+
+Readback::Readback(const gpu::Device& device, const Plan& plan) {
+  for (const Copy& copy : plan.opening_copies) add(device, plan.graph, copy);
+  for (const PlanStep& step : plan.steps)
+    for (const Copy& copy : step.copies) add(device, plan.graph, copy);
+}
+
+void Readback::add(const gpu::Device& device, const Graph& graph, const Copy& copy) {
+  const Value& value = graph.values.at(copy.value);
+  const Key key{copy.value, copy.age};
+  buffers_.try_emplace(key, device, byte_size(value.desc), 0, gpu::MemoryKind::readback, value_name(value));
+  descs_.try_emplace(key, value.desc);
+}
+
+void Readback::record(VkCommandBuffer commands, const Copy& copy, const ValueImages& images,
+                      uint64_t frame_count) const {
+  const ValueLayer layer = images.layer(copy.value, copy.age, frame_count);
+  gpu::record_image_to_buffer(commands, *layer.image, gpu::whole_level(*layer.image, layer.layer),
+                              VK_IMAGE_LAYOUT_GENERAL, buffers_.at({copy.value, copy.age}).get(), 0);
+}
+
+void Readback::record_end(VkCommandBuffer commands) {
+  const std::array barrier{Barrier{.value = kFrameInputs,
+                                   .from = Access::transfer_write,
+                                   .to = Access::host_read,
+                                   .hazard = Hazard::read_after_write,
+                                   .previous_frame = false,
+                                   .reason = "the host reads the copies"}};
+  record_barriers(commands, barrier);
+}
+
+image::HostImage Readback::fetch(ValueId value, uint32_t age) const {
+  const gpu::Buffer& buffer = buffers_.at({value, age});
+  const std::span<std::byte> mapped = buffer.mapped();
+  return {.desc = descs_.at({value, age}), .texels = std::vector<std::byte>(mapped.begin(), mapped.end())};
+}
+
+}  // namespace lightloom::run

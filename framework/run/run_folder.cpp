@@ -1,0 +1,126 @@
+#include "framework/run/run_folder.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "framework/base/atomic_file.hpp"
+#include "framework/base/error.hpp"
+#include "framework/image/exr.hpp"
+#include "framework/image/npy.hpp"
+#include "framework/image/png.hpp"
+
+namespace lightloom::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder))
+    throw Error(ExitCode::run_failed, "cannot make the folder '" + folder.string() + "': " +
+                                          (error ? error.message() : std::string("a file of that name is in the way")));
+}
+
+std::string dimension_text(const ImageDesc& desc) {
+  return desc.dimension == Dimension::d3 ? "3d" : "2d";
+}
+
+const Value& find_value(const Graph& graph, const std::string& name) {
+  const auto found = std::find_if(graph.values.begin(), graph.values.end(),
+                                  [&](const Value& value) { return value_name(value) == name; });
+  if (found == graph.values.end()) throw Error(ExitCode::run_failed, "the graph has no value '" + name + "'");
+  return *found;
+}
+
+/// Dumps and data outputs: volumes as NumPy arrays, images as EXR.
+std::string data_extension(const ImageDesc& desc) {
+  return desc.dimension == Dimension::d3 ? ".npy" : ".exr";
+}
+
+/// A relative path that stays inside its folder.
+bool stays_inside(const fs::path& relative) {
+  return relative.is_relative() && std::find(relative.begin(), relative.end(), "..") == relative.end();
+}
+
+}  // namespace
+
+std::string frame_text(uint32_t frame) {
+  const std::string digits = std::to_string(frame);
+  return digits.size() >= 4 ? digits : std::string(4 - digits.size(), '0') + digits;
+}
+
+RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
+  make_folder(folder_);
+  remove_earlier_run();
+}
+
+void RunFolder::remove_earlier_run() const {
+  const fs::path record_file = folder_ / "run.json";
+  std::ifstream stream(record_file);
+  if (!stream) return;
+  const nlohmann::json record = nlohmann::json::parse(stream, nullptr, false);
+  if (!record.is_object() || !record.contains("lightloom") || !record.contains("files")) return;
+  std::error_code ignored;
+  fs::remove(record_file, ignored);  // first: without it the folder does not claim to be a finished run
+  for (const nlohmann::json& entry : record["files"]) {
+    if (!entry.is_string()) continue;
+    const fs::path relative = entry.get<std::string>();
+    if (!stays_inside(relative)) continue;
+    fs::remove(folder_ / relative, ignored);
+    fs::remove((folder_ / relative).parent_path(), ignored);  // goes only when it is empty
+  }
+}
+
+void RunFolder::write_image(fs::path relative, const image::HostImage& image,
+                            const std::vector<std::string>& channel_names) {
+  const fs::path file = folder_ / relative;
+  make_folder(file.parent_path());
+  if (relative.extension() == ".npy")
+    image::write_npy(file, image);
+  else if (relative.extension() == ".png")
+    image::write_png(file, image);
+  else
+    image::write_exr(file, image, channel_names);
+  files_.push_back(std::move(relative));
+}
+
+void RunFolder::write_frame(const Graph& graph, const FrameResult& result) {
+  const std::string frame = frame_text(result.frame);
+  for (const NamedImage& output : result.outputs) {
+    const ImageDesc& desc = output.image.desc;
+    const bool display = desc.dimension == Dimension::d2 && desc.format == Format::rgba8_unorm;
+    write_image(output.name + "." + frame + (display ? ".png" : data_extension(desc)), output.image,
+                image::default_channel_names(desc, output.name, {}));
+  }
+  for (const NamedImage& capture : result.captures) {
+    const Value& value = find_value(graph, capture.name);
+    write_image(fs::path("dumps") / frame / (capture.name + data_extension(value.desc)), capture.image,
+                image::default_channel_names(value.desc, value.port, value.part));
+    dumps_.push_back({{"frame", result.frame},
+                      {"value", capture.name},
+                      {"file", files_.back().generic_string()},
+                      {"format", format_info(value.desc.format).name},
+                      {"dimension", dimension_text(value.desc)},
+                      {"width", value.desc.extent.width},
+                      {"height", value.desc.extent.height},
+                      {"depth", value.desc.extent.depth},
+                      {"scratch", value.scratch}});
+  }
+}
+
+void RunFolder::finish(nlohmann::ordered_json record) {
+  if (!dumps_.empty()) {
+    const fs::path index = fs::path("dumps") / "index.json";
+    write_file_atomically(folder_ / index, dumps_.dump(2) + "\n");
+    files_.push_back(index);
+  }
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  for (const fs::path& file : files_) files.push_back(file.generic_string());
+  record["files"] = files;
+  write_file_atomically(folder_ / "run.json", record.dump(2) + "\n");
+}
+
+}  // namespace lightloom::run

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include "framework/gpu/buffer.hpp"
+#include "framework/gpu/image.hpp"
+#include "framework/gpu/samplers.hpp"
+#include "framework/run/frame_state.hpp"
+#include "framework/run/pass_recorder.hpp"
+#include "framework/scene/lights.hpp"
+#include "framework/scene/scene.hpp"
+#include "framework/scene/texture_pages.hpp"
+
+namespace lightloom::run {
+
+/// The camera of that name, or the first for an empty name. Throws Error(invalid_input) that lists the names.
+[[nodiscard]] size_t find_camera(const scene::Scene& scene, const std::string& name);
+
+struct SceneResourceOptions {
+  std::string camera;
+  Extent3 view;
+  uint32_t seed = 0;
+  double frames_per_second = 30;
+};
+
+/// The scene on the device: uploaded once, but for what moves and the blocks of the frame, which are staged by
+/// `prepare` and copied by `record_upload`.
+class SceneResources {
+ public:
+  SceneResources(gpu::Device& device, const scene::Scene& scene, SceneResourceOptions options);
+
+  [[nodiscard]] const SceneBindings& bindings() const { return bindings_; }
+  /// Poses the scene, draws light samples and fills the staging buffer. The frames prepared before are its history.
+  void prepare(uint32_t frame);
+  void record_upload(VkCommandBuffer commands) const;
+
+ private:
+  void upload_geometry(gpu::Device& device);
+  void upload_materials(gpu::Device& device);
+  void upload_environment(gpu::Device& device);
+  void bind();
+  void fill_light_block(LightBlock& block, const scene::Pose& pose, uint32_t frame, uint32_t hint_count) const;
+
+  const scene::Scene& scene_;
+  SceneResourceOptions options_;
+  size_t camera_ = 0;
+  std::deque<View> views_;  ///< newest first
+  scene::EmissionTable emission_;
+  gpu::Samplers samplers_;
+  gpu::Buffer vertices_;
+  gpu::Buffer triangles_;
+  gpu::Buffer frame_block_;
+  gpu::Buffer light_block_;
+  gpu::Buffer staging_;                 ///< FrameBlock, LightBlock, then the dynamic vertices
+  std::vector<gpu::Buffer> materials_;  ///< one
+  std::vector<gpu::Image> texture_pages_;
+  std::vector<gpu::Image> environment_;  ///< one
+  SceneBindings bindings_;
+};
+
+}  // namespace lightloom::run

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/gpu/image.hpp"
+#include "framework/graph/plan.hpp"
+
+namespace lightloom::run {
+
+/// One layer of a value: an image and the array layer in it.
+struct ValueLayer {
+  const gpu::Image* image = nullptr;
+  uint32_t layer = 0;
+};
+
+/// The images behind a plan's values. A 2D history ring is one image with a layer per age, so that shaders can index
+/// it; a 3D ring is one image per layer, since volumes have no layers.
+class ValueImages {
+ public:
+  /// Throws Error(run_failed) when a value is too large for the device, naming the value and the bytes.
+  ValueImages(const gpu::Device& device, const Plan& plan);
+
+  /// The layer that holds `value` as it was `age` frames before frame number `count` (frames counted since the start).
+  [[nodiscard]] ValueLayer layer(ValueId value, uint32_t age, uint64_t count) const;
+  /// Layer number of age 0.
+  [[nodiscard]] uint32_t newest(ValueId value, uint64_t count) const;
+  [[nodiscard]] uint32_t ring(ValueId value) const;
+  [[nodiscard]] gpu::ImageView view(ValueId value, uint32_t age, uint64_t count) const;
+  /// The whole ring of a 2D value.
+  [[nodiscard]] gpu::ImageView array_view(ValueId value) const;
+
+  /// Brings every image into GENERAL and clears it: to its constant, to the plan's prologue colour, else to zero.
+  void record_initialisation(VkCommandBuffer commands, const Plan& plan) const;
+
+  [[nodiscard]] uint64_t bytes() const;  ///< device memory of all images
+
+ private:
+  struct Entry {
+    std::vector<gpu::Image> images;
+    uint32_t layers = 1;
+  };
+  std::vector<Entry> entries_;
+};
+
+/// Fills one layer (all layers: `layer` = VK_REMAINING_ARRAY_LAYERS) of an image in GENERAL with a colour; depth images
+/// take its first component, unsigned formats its components cast to unsigned.
+void record_clear(VkCommandBuffer commands, const gpu::Image& image, uint32_t layer, const ClearColor& color);
+
+}  // namespace lightloom::run
