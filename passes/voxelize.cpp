@@ -7,6 +7,9 @@
 namespace lightloom::passes {
 namespace {
 
+// 65535 groups of 64, the least that every device offers.
+constexpr uint32_t kTrianglesPerDispatch = 65535 * 64;
+
 Port voxels_output() {
   Port port;
   port.name = "voxels";
@@ -53,10 +56,11 @@ uint32_t slice_count(uint32_t triangles) {
 void record(PassContext& context) {
   const TriangleRange range = chosen_triangles(context);
   context.clear("owner", {0, 0, 0, 0});
-  if (range.count > 0) {
+  for (uint32_t done = 0; done < range.count; done += kTrianglesPerDispatch) {
+    const uint32_t count = std::min(range.count - done, kTrianglesPerDispatch);
     context.dispatch({"voxelize_claim.comp",
-                      {range.count, 1, slice_count(range.count)},
-                      {{"first_triangle", range.first}, {"triangle_count", range.count}}});
+                      {count, 1, slice_count(count)},
+                      {{"first_triangle", range.first + done}, {"triangle_count", count}}});
   }
   context.dispatch({"voxelize_resolve.comp", context.output_extent("voxels"), {}});
 }

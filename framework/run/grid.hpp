@@ -16,8 +16,8 @@ struct Grid {
 
 /// Grid around the bounds [m]: the longest axis has `resolution` voxels (at least 3), one voxel of padding at each end
 /// included; the other axes as many as their length needs (at least one), and the same padding. The bounds lie in the
-/// middle. A point, or bounds too small for floats to resolve at their distance from the world's origin, gets a grid of
-/// the least resolvable size; components that are not finite count as 0.
+/// middle. Bounds that are a point, or too small for floats to resolve at their distance from the world's origin, get
+/// one voxel and the padding; components that are not finite count as 0.
 /// shaders/lib/grid.glsl computes the same from the bounds and the extent.
 [[nodiscard]] Grid make_grid(glm::vec3 bounds_min, glm::vec3 bounds_max, uint32_t resolution);
 

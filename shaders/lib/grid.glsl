@@ -17,7 +17,7 @@ float largest_of(vec3 v) { return max(v.x, max(v.y, v.z)); }
 Grid grid_around(vec3 low, vec3 high, ivec3 extent) {
   high = max(high, low);
   float magnitude = largest_of(max(abs(low), abs(high)));
-  float longest = max(largest_of(high - low), max(magnitude * 1e-5, 1e-20));
+  float longest = max(largest_of(high - low), max(magnitude * 1e-6, 1e-20));
   Grid grid;
   grid.extent = extent;
   grid.voxel_size = longest / max(largest_of(vec3(extent)) - 2.0, 1.0);

@@ -1,0 +1,54 @@
+// Second half of `voxelize`: every voxel is written from its one owner, so its three words belong together.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "lib/voxel_encoding.glsl"
+#include "lib/voxel_sample.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(r32ui) uniform uimage3D owner;
+uniform writeonly image3D out_voxels_albedo;
+uniform writeonly image3D out_voxels_normal;
+uniform writeonly image3D out_voxels_material;
+
+VoxelSurface surface_in_voxel(Grid grid, Triangle t, ivec3 voxel) {
+  Corners in_grid = grid_corners(grid, t);
+  vec3 barycentric = voxel_barycentric(in_grid, voxel);
+  MaterialSample m = sample_material(t.material, voxel_texture_point(t, in_grid, barycentric),
+                                     interpolate_color(t, barycentric));
+  vec3 face = safe_normalize(area_normal(in_grid), vec3(0.0, 1.0, 0.0));
+  vec3 normal = safe_normalize(interpolate_normal(t, barycentric), face);
+  if (dot(normal, face) < 0.0) normal = -normal;
+  vec4 tangent = interpolate_tangent(t, barycentric);
+  tangent.xyz = orthogonal_tangent(normal, tangent.xyz);
+  vec3 bitangent = cross(normal, tangent.xyz) * tangent.w;
+  vec3 lobe = tangent.xyz * m.direction.x + bitangent * m.direction.y;
+
+  VoxelSurface s;
+  s.albedo = m.base_color;
+  s.normal = safe_normalize(tangent.xyz * m.normal.x + bitangent * m.normal.y + normal * m.normal.z, normal);
+  s.tangent = orthogonal_tangent(s.normal, lobe);
+  s.handedness = tangent.w;
+  s.metallic = m.metallic;
+  s.ward_alpha = m.ward_alpha;
+  s.f0 = m.f0;
+  s.f90 = m.f90;
+  s.emission = any(greaterThan(m.emission, vec3(0.0))) ? materials[t.material].flags.z : 0u;
+  return s;
+}
+
+void main() {
+  ivec3 voxel = ivec3(gl_GlobalInvocationID);
+  ivec3 extent = imageSize(out_voxels_albedo);
+  if (any(greaterThanEqual(voxel, extent))) return;
+  vec4 albedo = vec4(0.0);
+  vec4 normal = vec4(0.0);
+  vec4 material = vec4(0.0);
+  uint claimed = imageLoad(owner, voxel).x;
+  if (claimed != 0u)
+    encode_voxel(surface_in_voxel(scene_grid(extent), triangles[claimed - 1u], voxel), albedo, normal, material);
+  imageStore(out_voxels_albedo, voxel, albedo);
+  imageStore(out_voxels_normal, voxel, normal);
+  imageStore(out_voxels_material, voxel, material);
+}
