@@ -32,7 +32,11 @@ using Images = std::map<std::string, image::HostImage>;
 std::vector<Images> run_graph(std::string_view graph_json, const scene::Scene& scene,
                               const GraphRunOptions& options = {});
 
-/// A scene made of triangles given in code: one static quad or more. `materials` may be empty (white Lambertian).
+/// White, no specular reflection, double sided.
+scene::Material white_lambertian();
+
+/// A static scene of quads, each an object of its own. Without `materials`: white Lambertian. The feature `specular` is
+/// set; sun, environment and punctual lights may be added by the caller, together with their features.
 struct QuadSpec {
   glm::vec3 corner, edge_u, edge_v;  ///< counter-clockwise seen from the side of cross(edge_u, edge_v)
   uint32_t material = 0;
