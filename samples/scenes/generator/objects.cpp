@@ -118,8 +118,9 @@ Mesh pot() {
   Mesh mesh;
   const glm::dvec3 axis(0);
   const std::array<glm::dvec2, 4> wall{{{0.2, 0}, {0.25, 0.2}, {0.27, 0.38}, {0.27, 0.4}}};
-  const std::array<glm::dvec2, 4> rim{{{0.27, 0.4}, {0.3, 0.41}, {0.3, 0.46}, {0.29, 0.47}}};
-  const std::array<glm::dvec2, 2> top{{{0.29, 0.47}, {0.25, 0.47}}};
+  const std::array<glm::dvec2, 6> rim{
+      {{0.27, 0.4}, {0.29, 0.403}, {0.3, 0.415}, {0.3, 0.455}, {0.293, 0.467}, {0.28, 0.47}}};
+  const std::array<glm::dvec2, 2> top{{{0.28, 0.47}, {0.25, 0.47}}};
   const std::array<glm::dvec2, 2> inside{{{0.25, 0.47}, {0.25, kSoilHeight - 0.02}}};
   for (const std::span<const glm::dvec2> run :
        {std::span<const glm::dvec2>(wall), std::span<const glm::dvec2>(rim), std::span<const glm::dvec2>(top),
