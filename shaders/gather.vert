@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "lib/basis.glsl"
 #include "lib/triangle.glsl"
 
 layout(location = 0) out vec3 position;

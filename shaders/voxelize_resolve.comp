@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "lib/basis.glsl"
 #include "lib/voxel_encoding.glsl"
 #include "lib/voxel_sample.glsl"
 

@@ -6,7 +6,7 @@
 #ifndef LIGHTLOOM_LIB_SUPERCOVER
 #define LIGHTLOOM_LIB_SUPERCOVER
 
-#include "lib/triangle.glsl"
+#include "lib/corners.glsl"
 
 struct Supercover {
   int axis;          // of the columns
