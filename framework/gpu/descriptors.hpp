@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
@@ -52,10 +54,19 @@ class DescriptorAllocator {
   void reset();
 
  private:
+  static constexpr size_t kKinds = 6;  ///< of BindingKind
+  using Counts = std::array<uint32_t, kKinds>;
+  struct Pool {
+    DescriptorPoolHandle handle;
+    uint32_t free_sets = 0;
+    Counts free{};
+  };
+
   [[nodiscard]] VkDescriptorSet allocate_set(const Pipeline& pipeline);
+  [[nodiscard]] Pool make_pool(const Counts& at_least) const;
 
   const Device& device_;
-  std::vector<DescriptorPoolHandle> pools_;  ///< the last one is the one in use
+  std::vector<Pool> pools_;  ///< sets come from the last one
 };
 
 }  // namespace lightloom::gpu

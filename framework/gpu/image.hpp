@@ -45,6 +45,7 @@ class Image {
   [[nodiscard]] VkDeviceSize memory_bytes() const { return memory_bytes_; }
 
  private:
+  void make_views(const Device& device);
   [[nodiscard]] ImageViewHandle make_view(const Device& device, VkImageViewType type, uint32_t layer, uint32_t layers,
                                           uint32_t mips) const;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
@@ -17,6 +18,7 @@ namespace lightloom::gpu {
 struct ShaderProgram {
   std::vector<SpirvModule> modules;
   Reflection reflection;
+  uint64_t identity = 0;  ///< hash of the SPIR-V of all stages
   [[nodiscard]] bool compute() const { return modules.size() == 1 && modules.front().stage == Stage::compute; }
 };
 [[nodiscard]] ShaderProgram make_program(std::vector<SpirvModule> modules);

@@ -65,6 +65,7 @@ struct SpecializationConstant {
   std::string name;
   uint32_t id = 0;
   ScalarType type = ScalarType::other;
+  VkShaderStageFlags stages = 0;  ///< those that know the name by this id
 };
 
 struct FragmentOutput {

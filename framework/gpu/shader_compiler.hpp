@@ -39,6 +39,7 @@ struct CompileStatistics {
   uint32_t compiled = 0;
   uint32_t from_cache = 0;
   uint32_t rejected_cache_entries = 0;  ///< damaged ones, compiled anew
+  std::string cache_write_failure;      ///< why the last entry could not be written; empty if all could
 };
 
 /// GLSL (460 unless `#version` says otherwise; GL_GOOGLE_include_directive and GL_EXT_samplerless_texture_functions are

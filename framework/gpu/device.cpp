@@ -1,0 +1,200 @@
+#include "framework/gpu/device.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include "framework/base/error.hpp"
+#include "framework/gpu/device_selection.hpp"
+#include "framework/gpu/result.hpp"
+
+namespace lightloom::gpu {
+namespace {
+
+constexpr uint64_t kHangNanoseconds = 120ull * 1000 * 1000 * 1000;
+
+std::string wanted_name(const DeviceOptions& options) {
+  if (!options.name.empty()) return options.name;
+  const char* environment = std::getenv("LIGHTLOOM_DEVICE");
+  return environment != nullptr ? environment : "";
+}
+
+bool has_device_extension(VkPhysicalDevice device, const char* name) {
+  uint32_t count = 0;
+  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "vkEnumerateDeviceExtensionProperties");
+  std::vector<VkExtensionProperties> extensions(count);
+  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()),
+        "vkEnumerateDeviceExtensionProperties");
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
+}
+
+}  // namespace
+
+std::string to_string(DeviceType type) {
+  switch (type) {
+    case DeviceType::discrete_gpu:
+      return "discrete GPU";
+    case DeviceType::integrated_gpu:
+      return "integrated GPU";
+    case DeviceType::virtual_gpu:
+      return "virtual GPU";
+    case DeviceType::cpu:
+      return "CPU";
+    case DeviceType::other:
+      break;
+  }
+  return "other";
+}
+
+std::string DeviceInfo::api_version_text() const {
+  return std::to_string(VK_API_VERSION_MAJOR(api_version)) + "." + std::to_string(VK_API_VERSION_MINOR(api_version)) +
+         "." + std::to_string(VK_API_VERSION_PATCH(api_version));
+}
+
+std::string DeviceInfo::uuid_text() const {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string text;
+  for (uint8_t byte : uuid) {
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15];
+  }
+  return text;
+}
+
+Device::Device(const DeviceOptions& options) : instance_(options.validate) {
+  const std::vector<VkPhysicalDevice> physical_devices = instance_.physical_devices();
+  std::vector<DeviceSummary> summaries;
+  for (VkPhysicalDevice device : physical_devices) summaries.push_back(describe_device(device));
+  const size_t chosen = choose_device(summaries, wanted_name(options));
+  physical_ = physical_devices[chosen];
+  info_ = summaries[chosen].info;
+  vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+  create_device(options.validate);
+  try {
+    create_commands();
+  } catch (...) {
+    fence_ = {};
+    command_pool_ = {};
+    vkDestroyDevice(device_, nullptr);
+    throw;
+  }
+}
+
+void Device::create_device(bool validate) {
+  VkQueueFamilyProperties family{};
+  queue_family_ = static_cast<uint32_t>(find_queue_family(physical_, family));
+  timestamp_bits_ = family.timestampValidBits;
+
+  FeatureChain features;
+  enable_required_features(features);
+  if (validate) {
+    VkPhysicalDeviceFeatures available{};
+    vkGetPhysicalDeviceFeatures(physical_, &available);
+    features.core.features.robustBufferAccess = available.robustBufferAccess;
+  }
+  const float priority = 1;
+  VkDeviceQueueCreateInfo queue{};
+  queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queue.queueFamilyIndex = queue_family_;
+  queue.queueCount = 1;
+  queue.pQueuePriorities = &priority;
+  std::vector<const char*> extensions;
+  constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
+  if (has_device_extension(physical_, kPortabilitySubset)) extensions.push_back(kPortabilitySubset);
+
+  VkDeviceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.pNext = &features.core;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue;
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
+  const VkResult result = vkCreateDevice(physical_, &info, nullptr, &device_);
+  if (result != VK_SUCCESS) {
+    throw Error(ExitCode::no_device,
+                "device '" + info_.name + "' cannot be opened: vkCreateDevice gave " + result_name(result));
+  }
+  vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+  if (validate) {
+    set_object_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
+        vkGetInstanceProcAddr(instance_.get(), "vkSetDebugUtilsObjectNameEXT"));
+  }
+}
+
+void Device::create_commands() {
+  VkCommandPoolCreateInfo pool{};
+  pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+  pool.queueFamilyIndex = queue_family_;
+  VkCommandPool command_pool = VK_NULL_HANDLE;
+  check(vkCreateCommandPool(device_, &pool, nullptr, &command_pool), "vkCreateCommandPool");
+  command_pool_ = CommandPoolHandle(device_, command_pool);
+
+  VkCommandBufferAllocateInfo buffer{};
+  buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+  buffer.commandPool = command_pool;
+  buffer.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  buffer.commandBufferCount = 1;
+  check(vkAllocateCommandBuffers(device_, &buffer, &command_buffer_), "vkAllocateCommandBuffers");
+
+  VkFenceCreateInfo fence_info{};
+  fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+  VkFence fence = VK_NULL_HANDLE;
+  check(vkCreateFence(device_, &fence_info, nullptr, &fence), "vkCreateFence");
+  fence_ = FenceHandle(device_, fence);
+}
+
+Device::~Device() {
+  // After a hang the wait would hang too; what the device still runs then dies with the process.
+  if (!lost_) vkDeviceWaitIdle(device_);
+  fence_ = {};
+  command_pool_ = {};
+  vkDestroyDevice(device_, nullptr);
+}
+
+void Device::run_commands(const std::function<void(VkCommandBuffer)>& record) {
+  check(vkResetCommandPool(device_, command_pool_.get(), 0), "vkResetCommandPool");
+  VkCommandBufferBeginInfo begin{};
+  begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  check(vkBeginCommandBuffer(command_buffer_, &begin), "vkBeginCommandBuffer");
+  record(command_buffer_);
+  check(vkEndCommandBuffer(command_buffer_), "vkEndCommandBuffer");
+  submit_and_wait();
+}
+
+void Device::submit_and_wait() {
+  VkCommandBufferSubmitInfo commands{};
+  commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
+  commands.commandBuffer = command_buffer_;
+  VkSubmitInfo2 submit{};
+  submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+  submit.commandBufferInfoCount = 1;
+  submit.pCommandBufferInfos = &commands;
+  const VkFence fence = fence_.get();
+  check(vkResetFences(device_, 1, &fence), "vkResetFences");
+  const VkResult submitted = vkQueueSubmit2(queue_, 1, &submit, fence);
+  lost_ = lost_ || submitted == VK_ERROR_DEVICE_LOST;
+  check(submitted, "vkQueueSubmit2 on '" + info_.name + "'");
+
+  const uint64_t limit = info_.type == DeviceType::cpu ? UINT64_MAX : kHangNanoseconds;
+  const VkResult waited = vkWaitForFences(device_, 1, &fence, VK_TRUE, limit);
+  lost_ = lost_ || waited == VK_ERROR_DEVICE_LOST || waited == VK_TIMEOUT;
+  check(waited, "waiting for '" + info_.name + "'");
+  if (waited == VK_TIMEOUT) {
+    throw Error(ExitCode::run_failed, "device '" + info_.name + "' did not finish its work within 120 s",
+                "it hangs, or the work is too much for it: try a smaller size or another --device");
+  }
+}
+
+void Device::set_name(VkObjectType type, uint64_t object, const std::string& name) const {
+  if (set_object_name_ == nullptr || name.empty()) return;
+  VkDebugUtilsObjectNameInfoEXT info{};
+  info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
+  info.objectType = type;
+  info.objectHandle = object;
+  info.pObjectName = name.c_str();
+  check(set_object_name_(device_, &info), "vkSetDebugUtilsObjectNameEXT");
+}
+
+}  // namespace lightloom::gpu

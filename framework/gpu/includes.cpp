@@ -1,0 +1,89 @@
+#include "framework/gpu/includes.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "framework/base/error.hpp"
+#include "framework/base/file.hpp"
+#include "framework/base/text.hpp"
+
+namespace lightloom::gpu {
+namespace {
+
+constexpr std::string_view kSpace = " \t";
+
+std::string_view skip_space(std::string_view text) {
+  const size_t start = text.find_first_not_of(kSpace);
+  return start == std::string_view::npos ? std::string_view{} : text.substr(start);
+}
+
+/// The name in a line `#include "name"`, or empty.
+std::string included_name(std::string_view line) {
+  line = skip_space(line);
+  if (!line.starts_with('#')) return {};
+  line = skip_space(line.substr(1));
+  constexpr std::string_view kDirective = "include";
+  if (!line.starts_with(kDirective)) return {};
+  line = skip_space(line.substr(kDirective.size()));
+  if (!line.starts_with('"')) return {};
+  line.remove_prefix(1);
+  const size_t end = line.find('"');
+  return end == std::string_view::npos ? std::string{} : std::string(line.substr(0, end));
+}
+
+class Collector {
+ public:
+  explicit Collector(std::span<const std::filesystem::path> directories) : directories_(directories) {}
+
+  void follow(const std::string& name, const std::string& text) {
+    chain_.push_back(name);
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      const std::string included = included_name(line);
+      if (!included.empty()) enter(included);
+    }
+    chain_.pop_back();
+  }
+
+  [[nodiscard]] IncludeTexts take() { return std::move(texts_); }
+
+ private:
+  void enter(const std::string& name) {
+    const auto open = std::find(chain_.begin(), chain_.end(), name);
+    if (open != chain_.end()) {
+      std::vector<std::string> cycle(open, chain_.end());
+      cycle.push_back(name);
+      throw Error(ExitCode::invalid_input, "shader files include each other in a cycle: " + join(cycle, " -> "),
+                  "move what both need into a file of its own");
+    }
+    if (texts_.contains(name)) return;
+    const std::filesystem::path file = find_file(name, directories_);
+    if (file.empty()) return;
+    const std::string& text = texts_.emplace(name, read_text_file(file)).first->second;
+    follow(name, text);
+  }
+
+  std::span<const std::filesystem::path> directories_;
+  IncludeTexts texts_;
+  std::vector<std::string> chain_;
+};
+
+}  // namespace
+
+std::filesystem::path find_file(const std::string& name, std::span<const std::filesystem::path> directories) {
+  std::error_code ignored;
+  for (const std::filesystem::path& directory : directories) {
+    std::filesystem::path file = directory / name;
+    if (std::filesystem::is_regular_file(file, ignored)) return file;
+  }
+  return {};
+}
+
+IncludeTexts collect_includes(std::span<const ShaderSource> sources,
+                              std::span<const std::filesystem::path> directories) {
+  Collector collector(directories);
+  for (const ShaderSource& source : sources) collector.follow(source.name, source.text);
+  return collector.take();
+}
+
+}  // namespace lightloom::gpu

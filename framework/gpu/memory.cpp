@@ -1,0 +1,88 @@
+#include "framework/gpu/memory.hpp"
+
+#include <array>
+#include <cstdio>
+#include <optional>
+
+#include "framework/base/error.hpp"
+#include "framework/gpu/result.hpp"
+
+namespace lightloom::gpu {
+namespace {
+
+std::optional<uint32_t> find_type(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
+                                  VkMemoryPropertyFlags wanted) {
+  for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+    const bool fits = (memory.memoryTypes[i].propertyFlags & wanted) == wanted;
+    if (fits && (allowed & (1u << i)) != 0) return i;
+  }
+  return std::nullopt;
+}
+
+/// Properties to ask for, best first. A host-visible coherent type always exists for buffers, any type for images.
+std::array<VkMemoryPropertyFlags, 2> wishes(MemoryKind kind) {
+  constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  switch (kind) {
+    case MemoryKind::device:
+      return {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+    case MemoryKind::upload:
+      return {kHost, kHost};
+    case MemoryKind::readback:
+      break;
+  }
+  return {kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kHost};
+}
+
+uint32_t choose_type(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
+                     const std::string& owner) {
+  for (VkMemoryPropertyFlags wanted : wishes(kind)) {
+    if (const auto type = find_type(device.memory(), requirements.memoryTypeBits, wanted)) return *type;
+  }
+  throw Error(ExitCode::run_failed, "device '" + device.info().name + "' has no kind of memory for " + owner);
+}
+
+}  // namespace
+
+std::string bytes_text(uint64_t bytes) {
+  const std::string exact = std::to_string(bytes) + " bytes";
+  if (bytes < 1024 * 1024) return exact;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+  return std::string(text.data()) + " (" + exact + ")";
+}
+
+MemoryHandle allocate_memory(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
+                             const std::string& owner, const VkMemoryDedicatedAllocateInfo& dedicated) {
+  const std::string need = owner + " needs " + bytes_text(requirements.size);
+  const uint64_t limit = device.info().max_allocation_bytes;
+  if (limit != 0 && requirements.size > limit) {
+    throw Error(ExitCode::run_failed,
+                need + ", more than the " + bytes_text(limit) + " that device '" + device.info().name +
+                    "' gives to one resource",
+                "choose a smaller size or resolution");
+  }
+  VkMemoryAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  info.pNext = &dedicated;
+  info.allocationSize = requirements.size;
+  info.memoryTypeIndex = choose_type(device, requirements, kind, owner);
+  const VkMemoryHeap& heap = device.memory().memoryHeaps[device.memory().memoryTypes[info.memoryTypeIndex].heapIndex];
+  if (requirements.size > heap.size) {
+    throw Error(ExitCode::run_failed,
+                need + ", more than the " + bytes_text(heap.size) + " of memory of device '" + device.info().name + "'",
+                "choose a smaller size or resolution");
+  }
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  const VkResult result = vkAllocateMemory(device.get(), &info, nullptr, &memory);
+  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY ||
+      result == VK_ERROR_TOO_MANY_OBJECTS) {
+    throw Error(ExitCode::run_failed,
+                need + ", but device '" + device.info().name + "' has no more memory (" + result_name(result) + "; " +
+                    bytes_text(heap.size) + " in all)",
+                "choose a smaller size or resolution");
+  }
+  check(result, "vkAllocateMemory for " + owner);
+  return MemoryHandle(device.get(), memory);
+}
+
+}  // namespace lightloom::gpu

@@ -1,0 +1,39 @@
+#include <map>
+#include <string>
+
+#include "framework/base/hash.hpp"
+#include "framework/gpu/pipeline.hpp"
+
+namespace lightloom::gpu {
+namespace {
+
+/// The same values in another order, or as another type that means the same, give the same key.
+std::string key_of(const ShaderProgram& program, std::span<const ShaderValue> constants) {
+  std::map<std::string, uint32_t> bits;
+  for (const ShaderValue& value : constants) {
+    const SpecializationConstant* constant = program.reflection.find_constant(value.name);
+    // A name that the shader does not have is reported when the pipeline is made.
+    bits.emplace(value.name, constant == nullptr ? 0 : encode_value(value, constant->type, program.reflection.name));
+  }
+  std::string key = hex(program.identity);
+  for (const auto& [name, value] : bits) key += ";" + name + "=" + std::to_string(value);
+  return key;
+}
+
+}  // namespace
+
+const Pipeline& PipelineCache::compute(const ShaderProgram& program, std::span<const ShaderValue> constants) {
+  const std::string key = key_of(program, constants);
+  if (const auto found = pipelines_.find(key); found != pipelines_.end()) return *found->second;
+  return *pipelines_.emplace(key, std::make_unique<Pipeline>(device_, program, constants)).first->second;
+}
+
+const Pipeline& PipelineCache::graphics(const ShaderProgram& program, std::span<const ShaderValue> constants,
+                                        const AttachmentFormats& formats) {
+  std::string key = key_of(program, constants) + "|" + std::to_string(formats.depth);
+  for (VkFormat format : formats.colors) key += "," + std::to_string(format);
+  if (const auto found = pipelines_.find(key); found != pipelines_.end()) return *found->second;
+  return *pipelines_.emplace(key, std::make_unique<Pipeline>(device_, program, constants, formats)).first->second;
+}
+
+}  // namespace lightloom::gpu

@@ -1,0 +1,43 @@
+#include "framework/gpu/timestamps.hpp"
+
+#include "framework/base/error.hpp"
+#include "framework/gpu/result.hpp"
+
+namespace lightloom::gpu {
+
+TimestampPool::TimestampPool(const Device& device, uint32_t count) : device_(device), count_(count) {
+  if (device.timestamp_bits() == 0 || count == 0) return;
+  VkQueryPoolCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+  info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+  info.queryCount = count;
+  VkQueryPool pool = VK_NULL_HANDLE;
+  check(vkCreateQueryPool(device.get(), &info, nullptr, &pool), "vkCreateQueryPool");
+  pool_ = QueryPoolHandle(device.get(), pool);
+}
+
+void TimestampPool::reset(VkCommandBuffer commands) const {
+  if (available()) vkCmdResetQueryPool(commands, pool_.get(), 0, count_);
+}
+
+void TimestampPool::write(VkCommandBuffer commands, uint32_t index) const {
+  if (index >= count_) throw Error(ExitCode::run_failed, "there is no timestamp " + std::to_string(index));
+  if (available()) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(), index);
+}
+
+std::vector<double> TimestampPool::nanoseconds(uint32_t written) const {
+  if (!available() || written == 0) return {};
+  std::vector<uint64_t> ticks(written);
+  const VkResult result = vkGetQueryPoolResults(device_.get(), pool_.get(), 0, written, written * sizeof(uint64_t),
+                                                ticks.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
+  check(result, "vkGetQueryPoolResults");
+  if (result == VK_NOT_READY) throw Error(ExitCode::run_failed, "a timestamp was read that was not written");
+  const uint32_t bits = device_.timestamp_bits();
+  const uint64_t mask = bits >= 64 ? UINT64_MAX : (uint64_t{1} << bits) - 1;
+  const double period = static_cast<double>(device_.info().limits.timestampPeriod);
+  std::vector<double> times;
+  for (uint64_t tick : ticks) times.push_back(static_cast<double>((tick - ticks.front()) & mask) * period);
+  return times;
+}
+
+}  // namespace lightloom::gpu
