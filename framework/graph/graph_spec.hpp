@@ -25,6 +25,7 @@ struct ScalarSpec {
   SourceLocation name_where;
   ParamValue value;
   SourceLocation where;
+  bool broken = false;  ///< was reported; its value means nothing
 };
 
 /// "pass.port", "pass.port.part", each with an optional "@k" (k frames ago) or "@a..b".
@@ -52,6 +53,7 @@ struct PassSpec {
   std::vector<ConnectionSpec> inputs;
   std::vector<ScalarSpec> params;
   bool enabled = true;
+  SourceLocation enabled_where;
   std::optional<TextSpec> when;
   std::string doc;
 };

@@ -54,7 +54,7 @@ struct Clear {
 /// the declared access's stages, so the one who records the clear chains from those stages to the transfer.
 struct Plan {
   Graph graph;
-  std::vector<Clear> prologue;             ///< constants and rings; once, and again when history is reset
+  std::vector<Clear> prologue;             ///< constants and rings; on an idle device, once and when history is reset
   std::vector<Barrier> prologue_barriers;  ///< after the clears, before the first frame
   std::vector<Barrier> frame_start;        ///< last frame's reads of frame inputs before this frame's upload
   std::vector<Barrier> inputs_ready;       ///< upload before the reads

@@ -1,0 +1,119 @@
+#include <algorithm>
+
+#include "framework/graph/link_state.hpp"
+
+namespace lightloom::linking {
+namespace {
+
+std::string shader_name(const Port& port, const PortPart& part) {
+  const std::string prefix = port.direction == Direction::out ? "out_" : "";
+  return prefix + port.name + (part.name.empty() ? "" : "_" + part.name);
+}
+
+class Assembler {
+ public:
+  Assembler(const Nodes& nodes, const Wiring& wiring, const Needs& needs, ShapeResolver& shapes)
+      : nodes_(nodes), wiring_(wiring), needs_(needs), shapes_(shapes) {}
+
+  std::optional<Graph> run() {
+    graph_.view = shapes_.view();
+    graph_.trace = shapes_.trace();
+    for (const ScalarSpec& param : nodes_.graph_params) graph_.params.emplace_back(param.name, param.value);
+    // Values first: a history edge may point at a pass that is declared later.
+    for (uint32_t i = 0; i < nodes_.list.size(); ++i) add_values(i);
+    for (uint32_t i = 0; i < nodes_.list.size(); ++i)
+      if (needs_.live[i]) add_pass(i);
+    for (const ResolvedOutput& output : wiring_.outputs)
+      if (output.state == Connection::connected)
+        graph_.outputs.push_back({output.spec->name, value_of(output.source), output.source.first_age});
+    for (const ImageRef& image : needs_.captures) graph_.captures.push_back(id_of(image));
+    std::sort(graph_.captures.begin(), graph_.captures.end());
+    add_remarks();
+    if (!complete_) return std::nullopt;
+    return std::move(graph_);
+  }
+
+ private:
+  ValueId id_of(const ImageRef& image) const {
+    return static_cast<ValueId>(std::find(images_.begin(), images_.end(), image) - images_.begin());
+  }
+
+  ValueId add_value(const ImageRef& image, const std::optional<ClearColor>& constant) {
+    const PortPart& part = image.port->parts[image.part];
+    const std::optional<Extent3> extent = shapes_.extent_of(image);
+    complete_ = complete_ && extent.has_value();
+    graph_.values.push_back({nodes_.list[image.node].spec->name, image.port->name, part.name,
+                             ImageDesc{part.format, image.port->dimension, extent.value_or(Extent3{})}, constant, 0,
+                             image.port->direction == Direction::scratch});
+    images_.push_back(image);
+    return static_cast<ValueId>(images_.size() - 1);
+  }
+
+  void add_values(uint32_t node) {
+    if (!needs_.live[node]) return;
+    for (const Port& port : nodes_.list[node].type->ports)
+      for (uint32_t part = 0; part < port.parts.size(); ++part)
+        if (port.direction != Direction::in) add_value({node, &port, part}, std::nullopt);
+  }
+
+  /// The value's id; its ring grows to the oldest age that is read. A constant is the same at every age.
+  ValueId value_of(const Source& source) {
+    ValueId id = id_of(source.image);
+    if (id == images_.size()) id = add_value(source.image, source.image.port->bypass->constant);
+    Value& value = graph_.values[id];
+    if (!source.constant) value.history = std::max(value.history, source.last_age);
+    return id;
+  }
+
+  void add_pass(uint32_t index) {
+    const Node& node = nodes_.list[index];
+    GraphPass pass;
+    pass.name = node.spec->name;
+    pass.type = node.type;
+    pass.params = node.resolved;
+    for (const ResolvedInput& input : wiring_.inputs[index]) {
+      if (input.state != Connection::connected) pass.unconnected.push_back(input.port->name);
+      for (std::size_t part = 0; part < input.sources.size(); ++part) {
+        const Source& source = input.sources[part];
+        pass.inputs.push_back({input.port->name, input.port->parts[part].name,
+                               shader_name(*input.port, input.port->parts[part]), input.port->access, value_of(source),
+                               source.first_age, source.last_age, input.port->array});
+      }
+    }
+    for (const Port& port : node.type->ports) {
+      if (port.direction == Direction::in) continue;
+      for (uint32_t part = 0; part < port.parts.size(); ++part)
+        (port.direction == Direction::out ? pass.outputs : pass.scratch)
+            .push_back({port.name, port.parts[part].name, shader_name(port, port.parts[part]), port.access,
+                        id_of({index, &port, part}), 0, 0, false});
+    }
+    graph_.passes.push_back(std::move(pass));
+  }
+
+  void add_remarks() {
+    for (uint32_t i = 0; i < nodes_.list.size(); ++i) {
+      const Node& node = nodes_.list[i];
+      if (!node.enabled()) {
+        graph_.bypassed.push_back({node.spec->name, node.disabled});
+      } else if (!needs_.live[i]) {
+        graph_.culled.push_back({node.spec->name, "no output, capture or side effect needs it"});
+      }
+    }
+  }
+
+  const Nodes& nodes_;
+  const Wiring& wiring_;
+  const Needs& needs_;
+  ShapeResolver& shapes_;
+  Graph graph_;
+  std::vector<ImageRef> images_;  ///< by value id
+  bool complete_ = true;
+};
+
+}  // namespace
+
+std::optional<Graph> assemble(const Nodes& nodes, const Wiring& wiring, const Needs& needs, ShapeResolver& shapes) {
+  return Assembler(nodes, wiring, needs, shapes).run();
+}
+
+}  // namespace lightloom::linking

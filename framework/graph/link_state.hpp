@@ -1,0 +1,190 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "framework/graph/link.hpp"
+
+// Working data of the linker, private to framework/graph/link*.cpp.
+namespace lightloom::linking {
+
+/// Diagnostics that drop what was already said, so that checks may run again on a changed copy of the graph.
+class Report {
+ public:
+  explicit Report(Diagnostics& diagnostics) : diagnostics_(&diagnostics) {}
+  void error(std::string_view code, const SourceLocation& where, const std::string& message,
+             const std::string& hint = {});
+  void warning(std::string_view code, const SourceLocation& where, const std::string& message,
+               const std::string& hint = {});
+
+ private:
+  [[nodiscard]] bool said(std::string_view code, const SourceLocation& where, const std::string& message) const;
+  Diagnostics* diagnostics_;
+};
+
+/// A pass of the file as variants and options have left it.
+struct Node {
+  const PassSpec* spec = nullptr;
+  const PassType* type = nullptr;  ///< null: unknown, and reported
+  std::optional<std::string> swapped_by;
+  std::string disabled;  ///< why; empty: enabled
+  SourceLocation disabled_where;
+  std::vector<ScalarSpec> params;
+  ParamSet resolved;
+  [[nodiscard]] bool enabled() const { return disabled.empty(); }
+};
+
+/// What variants and options can change.
+struct Nodes {
+  std::vector<Node> list;
+  std::vector<ScalarSpec> graph_params;
+  [[nodiscard]] std::vector<std::string> names() const;
+};
+
+struct Input {
+  const GraphSpec& spec;
+  const PassRegistry& registry;
+  const LinkOptions& options;
+  const LinkEnvironment& environment;
+};
+
+constexpr uint32_t kNoNode = 0xffffffffU;
+
+/// One image that a node writes, or would write if it were not disabled.
+struct ImageRef {
+  uint32_t node = kNoNode;
+  const Port* port = nullptr;
+  uint32_t part = 0;
+  bool operator==(const ImageRef&) const = default;
+};
+
+/// Where one part of an input comes from, after bypasses.
+struct Source {
+  ImageRef image;
+  bool constant = false;  ///< the image's cleared stand-in
+  uint32_t first_age = 0;
+  uint32_t last_age = 0;
+};
+
+enum class Connection : uint8_t {
+  connected,
+  absent,     ///< no edge
+  no_bypass,  ///< the edge leads to a disabled pass that has nothing in place of its output
+  broken,     ///< reported
+};
+
+struct ResolvedInput {
+  const Port* port = nullptr;
+  const EdgeSpec* edge = nullptr;
+  Connection state = Connection::absent;
+  std::vector<Source> sources;  ///< one a part if connected
+  ImageRef culprit;             ///< no_bypass: what is missing
+};
+
+struct ResolvedOutput {
+  const ConnectionSpec* spec = nullptr;
+  Connection state = Connection::broken;
+  Source source;
+  ImageRef culprit;
+};
+
+/// Everything about wiring, by node index.
+struct Wiring {
+  std::vector<std::vector<ResolvedInput>> inputs;  ///< [node][input port in declared order]; disabled nodes: empty
+  std::vector<ResolvedOutput> outputs;
+};
+
+/// link_variants.cpp: nodes from the file, with its variants checked and the chosen ones and the options applied.
+[[nodiscard]] Nodes make_nodes(const Input& input, Report& report, std::vector<std::string>& notes);
+
+/// link_params.cpp: fills Node::resolved.
+void resolve_params(Nodes& nodes, Report& report);
+void warn_unused_params(const Nodes& nodes, const Input& input, Report& report);
+
+/// link_edges.cpp: one value per declared input, bypasses followed.
+class EdgeResolver {
+ public:
+  EdgeResolver(const Nodes& nodes, Report& report) : nodes_(nodes), report_(report) {}
+  [[nodiscard]] Wiring resolve(const GraphSpec& spec);
+  [[nodiscard]] ResolvedInput resolve_input(uint32_t node, const Port& port);
+
+ private:
+  struct Target {
+    uint32_t node = kNoNode;
+    const Port* port = nullptr;
+    std::optional<uint32_t> part;  ///< if the edge names one
+  };
+  struct Found {
+    Connection state = Connection::broken;
+    Source source;
+    ImageRef culprit;
+  };
+  [[nodiscard]] std::optional<Target> find_target(const EdgeSpec& edge, bool consumer_enabled);
+  [[nodiscard]] std::optional<Target> find_port(const EdgeSpec& edge, uint32_t node);
+  [[nodiscard]] bool check_kind(const std::string& consumer, const Port& input, const EdgeSpec& edge,
+                                const Target& target);
+  [[nodiscard]] bool check_bundle(const std::string& consumer, const Port& input, const EdgeSpec& edge,
+                                  const Target& target);
+  /// Through the bypasses of disabled passes to what stands in the end.
+  [[nodiscard]] Found follow(ImageRef image, const EdgeSpec& edge);
+  /// From an output of a disabled pass to what feeds the input that replaces it.
+  [[nodiscard]] Found through_bypass(const ImageRef& image);
+  [[nodiscard]] ResolvedOutput resolve_output(const ConnectionSpec& output);
+  void check_node(uint32_t node, const std::vector<ResolvedInput>& inputs);
+  const Nodes& nodes_;
+  Report& report_;
+};
+
+/// link_cycles.cpp: reports cycles over edges without '@'. True if there are none.
+[[nodiscard]] bool check_cycles(const Nodes& nodes, const Wiring& wiring, Report& report);
+
+/// link_shapes.cpp: extents by rule, and whether connected images fit.
+class ShapeResolver {
+ public:
+  ShapeResolver(const Nodes& nodes, EdgeResolver& edges, const Input& input, Report& report);
+  /// Empty if it cannot be known; then that was reported.
+  [[nodiscard]] std::optional<Extent3> extent_of(const ImageRef& image);
+  void check_inputs(uint32_t node, const std::vector<ResolvedInput>& inputs);
+  [[nodiscard]] Extent3 view() const { return view_; }
+  [[nodiscard]] Extent3 trace() const { return trace_; }
+
+ private:
+  struct Known {
+    const Port* port = nullptr;
+    uint32_t node = kNoNode;
+    bool in_progress = true;
+    std::optional<Extent3> extent;
+  };
+  [[nodiscard]] std::optional<Extent3> by_rule(uint32_t node, const Port& port);
+  [[nodiscard]] Extent3 grid(const Node& node) const;
+  const Nodes& nodes_;
+  EdgeResolver& edges_;
+  const Input& input_;
+  Report& report_;
+  Extent3 view_;
+  Extent3 trace_;
+  std::vector<Known> known_;
+};
+
+/// link_needs.cpp: which nodes run, and what is captured.
+struct Needs {
+  std::vector<bool> live;
+  std::vector<ImageRef> captures;
+};
+[[nodiscard]] Needs find_needs(const Nodes& nodes, const Wiring& wiring, const LinkOptions& options, Report& report,
+                               std::vector<std::string>& notes);
+/// Reports outputs of disabled passes that a live consumer needs and that have no bypass.
+void check_bypasses(const Nodes& nodes, const Wiring& wiring, const Needs& needs, Report& report);
+
+/// link_assemble.cpp: the graph from checked parts. Empty if a shape is unknown.
+[[nodiscard]] std::optional<Graph> assemble(const Nodes& nodes, const Wiring& wiring, const Needs& needs,
+                                            ShapeResolver& shapes);
+
+/// "pass.port" or "pass.port.part".
+[[nodiscard]] std::string image_name(const Nodes& nodes, const ImageRef& image);
+
+}  // namespace lightloom::linking

@@ -1,0 +1,193 @@
+#include "framework/graph/synchronise.hpp"
+
+#include <algorithm>
+#include <compare>
+#include <optional>
+#include <utility>
+
+#include "framework/base/text.hpp"
+
+namespace lightloom {
+namespace {
+
+/// A point in the frame where barriers can stand: before the pass of a step (`copy` 0) or before its copy `copy` - 1.
+struct Position {
+  uint32_t step = 0;
+  uint32_t copy = 0;
+  auto operator<=>(const Position&) const = default;
+};
+
+struct Reader {
+  Position position;
+  Access access = Access::none;
+  uint32_t first_age = 0;
+  uint32_t last_age = 0;
+  std::string name;
+};
+
+/// All that touches one value in a frame.
+struct Round {
+  std::optional<Position> write;
+  Access write_access = Access::none;
+  std::string writer;
+  std::vector<Reader> readers;  ///< in order of position
+};
+
+bool covers(Access wide, Access narrow) {
+  const AccessInfo& a = access_info(wide);
+  const AccessInfo& b = access_info(narrow);
+  return (a.stages & b.stages) == b.stages && (a.access & b.access) == b.access;
+}
+
+bool same_stages(Access a, Access b) {
+  return access_info(a).stages == access_info(b).stages;
+}
+
+std::vector<Round> collect_rounds(const Plan& plan) {
+  std::vector<Round> rounds(plan.graph.values.size());
+  for (uint32_t step = 0; step < plan.steps.size(); ++step) {
+    const GraphPass& pass = plan.graph.passes[plan.steps[step].pass];
+    for (const Use& use : pass.inputs)
+      rounds[use.value].readers.push_back({{step, 0}, use.access, use.first_age, use.last_age, pass.name});
+    for (const auto* uses : {&pass.outputs, &pass.scratch}) {
+      for (const Use& use : *uses) {
+        rounds[use.value].write = Position{step, 0};
+        rounds[use.value].write_access = use.access;
+        rounds[use.value].writer = pass.name;
+      }
+    }
+    const std::vector<Copy>& copies = plan.steps[step].copies;
+    for (uint32_t i = 0; i < copies.size(); ++i)
+      rounds[copies[i].value].readers.push_back(
+          {{step, i + 1}, Access::transfer_read, copies[i].age, copies[i].age, "the read-back"});
+  }
+  for (const Copy& copy : plan.opening_copies)
+    rounds[copy.value].readers.push_back({{0, 0}, Access::transfer_read, copy.age, copy.age, "the read-back"});
+  return rounds;
+}
+
+/// The accesses of readers that pass `filter`, in order, without those that an earlier one covers.
+template <class Filter>
+std::vector<Access> distinct_accesses(const Round& round, Filter filter) {
+  std::vector<Access> accesses;
+  for (const Reader& reader : round.readers) {
+    if (!filter(reader)) continue;
+    const bool known =
+        std::any_of(accesses.begin(), accesses.end(), [&](Access access) { return covers(access, reader.access); });
+    if (!known) accesses.push_back(reader.access);
+  }
+  return accesses;
+}
+
+std::string names_of(const Round& round, Access access) {
+  std::vector<std::string> names;
+  for (const Reader& reader : round.readers) {
+    if (!covers(access, reader.access)) continue;
+    std::string name = reader.name;
+    if (reader.first_age > 0)
+      name += " (" + std::to_string(reader.last_age) + (reader.last_age == 1 ? " frame" : " frames") + " back)";
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+  }
+  return join(names, ", ");
+}
+
+class Synchroniser {
+ public:
+  explicit Synchroniser(Plan& plan) : plan_(plan), rounds_(collect_rounds(plan)) {}
+
+  void run() {
+    frame_inputs();
+    for (ValueId value = 0; value < rounds_.size(); ++value) {
+      const Round& round = rounds_[value];
+      initialise(value, round);
+      if (round.write) one_round(value, round);
+    }
+  }
+
+ private:
+  void frame_inputs() {
+    plan_.frame_start.push_back({kFrameInputs, Access::frame_input_read, Access::transfer_write,
+                                 Hazard::write_after_read, true, "the last frame's passes read the frame inputs"});
+    plan_.inputs_ready.push_back({kFrameInputs, Access::transfer_write, Access::frame_input_read,
+                                  Hazard::read_after_write, false, "passes read the frame inputs"});
+  }
+
+  /// Constants and rings are cleared before the first frame.
+  void initialise(ValueId id, const Round& round) {
+    const Value& value = plan_.graph.values[id];
+    if (!value.constant && value.history == 0) return;
+    plan_.prologue.push_back({id, value.constant.value_or(ClearColor{0, 0, 0, 0})});
+    const auto meets_clear = [&](const Reader& reader) { return value.constant || reader.first_age > 0; };
+    for (const Access access : distinct_accesses(round, meets_clear))
+      plan_.prologue_barriers.push_back({id, Access::transfer_write, access, Hazard::read_after_write, false,
+                                         "cleared, read by " + names_of(round, access)});
+    if (round.write)
+      plan_.prologue_barriers.push_back({id, Access::transfer_write, round.write_access, Hazard::write_after_write,
+                                         false, "cleared, written by " + round.writer});
+  }
+
+  void one_round(ValueId id, const Round& round) {
+    if (round.readers.empty()) {
+      at(*round.write)
+          .push_back({id, round.write_access, round.write_access, Hazard::write_after_write, true,
+                      round.writer + " wrote it in the last frame"});
+      return;
+    }
+    // The first that can meet this frame's layer; where all look back, the first that meets the last frame's.
+    auto first = std::find_if(round.readers.begin(), round.readers.end(),
+                              [](const Reader& reader) { return reader.first_age == 0; });
+    const bool history_only = first == round.readers.end();
+    if (history_only) first = round.readers.begin();
+    const std::vector<Access> accesses = distinct_accesses(round, [](const Reader& /*reader*/) { return true; });
+    for (const Access access : accesses)
+      at(first->position)
+          .push_back({id, round.write_access, access, Hazard::read_after_write, history_only,
+                      round.writer + " writes it, read by " + names_of(round, access)});
+    const bool between = history_only && first->position <= *round.write;
+    before_next_write(id, round, accesses, between);
+  }
+
+  /// `read_barrier_between`: the barriers from write to readers stand between the layer's last reads, in an earlier
+  /// frame, and its next write, so that they order readers of the writer's own stages as well.
+  void before_next_write(ValueId id, const Round& round, const std::vector<Access>& accesses,
+                         bool read_barrier_between) {
+    const bool reaches_writer =
+        read_barrier_between && std::any_of(accesses.begin(), accesses.end(),
+                                            [&](Access access) { return same_stages(access, round.write_access); });
+    std::vector<Access> waited_for;
+    for (const Access access : accesses) {
+      if (reaches_writer && same_stages(access, round.write_access)) continue;
+      const bool known =
+          std::any_of(waited_for.begin(), waited_for.end(), [&](Access other) { return same_stages(other, access); });
+      if (known) continue;
+      waited_for.push_back(access);
+      at(*round.write)
+          .push_back({id, access, round.write_access, Hazard::write_after_read, true,
+                      "read in earlier frames by " + names_of_stages(round, access)});
+    }
+  }
+
+  static std::string names_of_stages(const Round& round, Access access) {
+    std::vector<std::string> names;
+    for (const Reader& reader : round.readers)
+      if (same_stages(reader.access, access) && std::find(names.begin(), names.end(), reader.name) == names.end())
+        names.push_back(reader.name);
+    return join(names, ", ");
+  }
+
+  std::vector<Barrier>& at(const Position& position) {
+    PlanStep& step = plan_.steps[position.step];
+    return position.copy == 0 ? step.barriers : step.copies[position.copy - 1].barriers;
+  }
+
+  Plan& plan_;
+  std::vector<Round> rounds_;
+};
+
+}  // namespace
+
+void synchronise(Plan& plan) {
+  Synchroniser(plan).run();
+}
+
+}  // namespace lightloom
