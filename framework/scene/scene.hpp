@@ -50,13 +50,13 @@ enum class AlphaMode : uint8_t { opaque, mask };  ///< BLEND is loaded as mask w
 
 struct Material {
   std::string name;
-  glm::vec4 base_color{1};     ///< linear
-  glm::vec3 emission{0};       ///< emissiveFactor * KHR_materials_emissive_strength [W·m⁻²·sr⁻¹]
+  glm::vec4 base_color{1};  ///< linear
+  glm::vec3 emission{0};    ///< emissiveFactor * KHR_materials_emissive_strength [W·m⁻²·sr⁻¹]
   float metallic = 1;
-  float roughness = 1;         ///< perceptual; Ward alpha = roughness²
-  float specular_factor = 1;   ///< KHR_materials_specular
+  float roughness = 1;        ///< perceptual; Ward alpha = roughness²
+  float specular_factor = 1;  ///< KHR_materials_specular
   glm::vec3 specular_color{1};
-  float ior = 1.5f;            ///< KHR_materials_ior
+  float ior = 1.5f;  ///< KHR_materials_ior
   float normal_scale = 1;
   float anisotropy_strength = 0;
   float anisotropy_rotation = 0;  ///< [radians], counter-clockwise from the tangent
@@ -114,16 +114,16 @@ struct PunctualLight {
 /// Facts of a scene that decide which code and which passes it needs. `named()` gives them to graphs ("scene.dynamic")
 /// and to shaders ("has_dynamic").
 struct Features {
-  bool dynamic = false;            ///< some mesh moves or deforms
-  bool emissive = false;           ///< some triangle emits
+  bool dynamic = false;   ///< some mesh moves or deforms
+  bool emissive = false;  ///< some triangle emits
   bool sun = false;
   bool punctual = false;
-  bool environment = false;        ///< non-black environment
+  bool environment = false;  ///< non-black environment
   bool environment_image = false;
   bool textured = false;
-  bool alpha = false;              ///< alpha-masked material
+  bool alpha = false;  ///< alpha-masked material
   bool normal_mapped = false;
-  bool specular = false;           ///< some material reflects specularly
+  bool specular = false;  ///< some material reflects specularly
   bool anisotropic = false;
   bool metallic = false;
   [[nodiscard]] std::vector<std::pair<std::string, bool>> named() const;
@@ -147,13 +147,14 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Image> images;
   std::vector<std::string> objects;  ///< names by object id
-  std::vector<Camera> cameras;       ///< at least one; scene-file cameras first, then the glTF file's, else a made-up "default"
+  std::vector<Camera>
+      cameras;  ///< at least one; scene-file cameras first, then the glTF file's, else a made-up "default"
   std::optional<Sun> sun;
   Environment environment;
   std::vector<PunctualLight> punctual;
   Features features;
-  Bounds bounds;               ///< over all geometry and the whole of every animation
-  double duration = 0;         ///< longest clip [s]; 0 if nothing is animated
+  Bounds bounds;        ///< over all geometry and the whole of every animation
+  double duration = 0;  ///< longest clip [s]; 0 if nothing is animated
   std::vector<std::string> warnings;
   std::shared_ptr<const SceneSource> source;
 };

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "framework/scene/gltf_file.hpp"
+#include "framework/scene/scene.hpp"
+
+namespace lightloom::scene {
+
+/// Runs `task(0) … task(count-1)` on all cores; the exception of the lowest failing task is rethrown.
+void run_parallel(size_t count, const std::function<void(size_t)>& task);
+
+/// Decodes PNG or JPEG to RGBA8: 16-bit samples are rounded, grey is spread, missing alpha is 255, alpha is not
+/// premultiplied. Throws Error naming `file` and `name`.
+[[nodiscard]] Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, const std::string& name);
+
+/// Decodes the listed images of a file, in parallel. Throws Error for the first that is missing or broken.
+[[nodiscard]] std::vector<Image> load_images(const GltfFile& file, const std::vector<int>& indices);
+
+/// Equirectangular environment image, as linear floats. Throws Error.
+void load_environment(const std::filesystem::path& path, const std::string& wanted_by, Environment& environment);
+
+}  // namespace lightloom::scene
