@@ -56,7 +56,7 @@ void decode_normal_frame(uvec2 bytes, out vec3 normal, out vec3 x, out vec3 y) {
   vec2 down = normalize(vec2(sin(polar), cos(polar)));
   normal = vec3(down.x * around.x, down.y, down.x * around.y);
   x = vec3(around.y, 0.0, -around.x);
-  y = vec3(down.y * around.x, -down.x, down.y * around.y);
+  y = vec3(-down.y * around.x, down.x, -down.y * around.y);
 }
 
 uint encode_tangent(uvec2 normal_bytes, vec3 tangent, float handedness) {
