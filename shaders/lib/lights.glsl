@@ -64,8 +64,8 @@ vec3 hint_light(Grid grid, texture3D distance_field, texture3D material, PathVer
 // cancels from sun_light.
 float sun_one_minus_cosine() { return max(0.0, 1.0 - frame.sun_direction.w); }
 
-// Radiance of the sun's disc times its solid angle, for a direction sampled uniformly on it: the irradiance on a surface
-// that faces the sun is the integral of the cosine over the disc, which is solid angle times (1 + cos) / 2.
+// Radiance of the sun's disc times its solid angle, for a direction sampled uniformly on it: the irradiance on a
+// surface that faces the sun is the integral of the cosine over the disc, which is solid angle times (1 + cos) / 2.
 vec3 sun_intensity() { return frame.sun_irradiance.rgb * (2.0 / (1.0 + frame.sun_direction.w)); }
 
 vec3 sun_light(texture3D distance_field, PathVertex vertex, vec2 u) {

@@ -14,8 +14,9 @@ struct MarchHit {
 };
 
 // How far along its normal a ray has to start to clear the voxels of the plane it starts on: a plane occupies voxels
-// whose centres are at most S(n)/2 away, and a point lies at most S(n)/2 from the centre of its voxel.
-float surface_clearance(vec3 normal) { return abs(normal.x) + abs(normal.y) + abs(normal.z); }
+// whose centres are at most S/2 away, S = |x| + |y| + |z|, and a point lies at most S/2 from the centre of its voxel.
+// The hundredth of a voxel keeps rounding from deciding where planes lie on the boundary between voxels.
+float surface_clearance(vec3 normal) { return abs(normal.x) + abs(normal.y) + abs(normal.z) + 0.01; }
 
 // Part [x, y] of the ray inside the grid; empty if x > y. A coordinate of the direction that is 0 divides to infinity,
 // which the comparisons handle; an origin on the face itself would give NaN and is moved off it.
