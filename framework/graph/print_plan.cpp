@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <sstream>
+#include <utility>
 
 #include "framework/base/hash.hpp"
+#include "framework/base/text.hpp"
 #include "framework/graph/plan.hpp"
 
 namespace lightloom {
@@ -61,11 +64,27 @@ class Printer {
     barriers(plan_.prologue_barriers);
   }
 
+  /// Barriers on parts of one port that differ in nothing else share a line.
   void barriers(const std::vector<Barrier>& list) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> lines;  // what follows the name, names
     for (const Barrier& barrier : list) {
-      out_ << "  | " << name(barrier.value) << ": " << access_info(barrier.from).name << " -> "
-           << access_info(barrier.to).name << ", " << to_string(barrier.hazard)
-           << (barrier.previous_frame ? ", previous frame" : "") << ": " << barrier.reason << "\n";
+      std::string port = "frame inputs";
+      std::string part;
+      if (barrier.value != kFrameInputs) {
+        port = graph_.values[barrier.value].pass + "." + graph_.values[barrier.value].port;
+        part = graph_.values[barrier.value].part;
+      }
+      std::ostringstream line;
+      line << ": " << access_info(barrier.from).name << " -> " << access_info(barrier.to).name << ", "
+           << to_string(barrier.hazard) << (barrier.previous_frame ? ", previous frame" : "") << ": " << barrier.reason;
+      const std::string key = port + "\n" + line.str();
+      const auto same = std::find_if(lines.begin(), lines.end(), [&](const auto& other) { return other.first == key; });
+      (same == lines.end() ? lines.emplace_back(key, std::vector<std::string>{}) : *same).second.push_back(part);
+    }
+    for (const auto& [key, parts] : lines) {
+      const std::size_t end = key.find('\n');
+      out_ << "  | " << key.substr(0, end) << (parts.front().empty() ? "" : ".{" + join(parts, ",") + "}")
+           << key.substr(end + 1) << "\n";
     }
   }
 

@@ -79,10 +79,11 @@ std::vector<Access> distinct_accesses(const Round& round, Filter filter) {
   return accesses;
 }
 
-std::string names_of(const Round& round, Access access) {
+template <class Filter>
+std::string names_of(const Round& round, Access access, Filter filter) {
   std::vector<std::string> names;
   for (const Reader& reader : round.readers) {
-    if (!covers(access, reader.access)) continue;
+    if (!filter(reader) || !covers(access, reader.access)) continue;
     std::string name = reader.name;
     if (reader.first_age > 0)
       name += " (" + std::to_string(reader.last_age) + (reader.last_age == 1 ? " frame" : " frames") + " back)";
@@ -120,7 +121,7 @@ class Synchroniser {
     const auto meets_clear = [&](const Reader& reader) { return value.constant || reader.first_age > 0; };
     for (const Access access : distinct_accesses(round, meets_clear))
       plan_.prologue_barriers.push_back({id, Access::transfer_write, access, Hazard::read_after_write, false,
-                                         "cleared, read by " + names_of(round, access)});
+                                         "cleared, read by " + names_of(round, access, meets_clear)});
     if (round.write)
       plan_.prologue_barriers.push_back({id, Access::transfer_write, round.write_access, Hazard::write_after_write,
                                          false, "cleared, written by " + round.writer});
@@ -138,11 +139,12 @@ class Synchroniser {
                               [](const Reader& reader) { return reader.first_age == 0; });
     const bool history_only = first == round.readers.end();
     if (history_only) first = round.readers.begin();
-    const std::vector<Access> accesses = distinct_accesses(round, [](const Reader& /*reader*/) { return true; });
+    const auto anyone = [](const Reader& /*reader*/) { return true; };
+    const std::vector<Access> accesses = distinct_accesses(round, anyone);
     for (const Access access : accesses)
       at(first->position)
           .push_back({id, round.write_access, access, Hazard::read_after_write, history_only,
-                      round.writer + " writes it, read by " + names_of(round, access)});
+                      round.writer + " writes it, read by " + names_of(round, access, anyone)});
     const bool between = history_only && first->position <= *round.write;
     before_next_write(id, round, accesses, between);
   }
