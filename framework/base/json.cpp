@@ -147,10 +147,27 @@ class TreeBuilder {
     cursor_ += length;
     return where;
   }
+  /// By JSON's grammar: what follows a complete number at once, as in "01", is the next token.
   std::size_t number_length() {
     skip_to_token();
-    const std::size_t end = text_.find_first_not_of("+-.0123456789eE", cursor_);
-    return std::min(end, text_.size()) - cursor_;
+    std::size_t end = cursor_;
+    const auto take = [&](std::string_view any_of) {
+      const bool found = end < text_.size() && any_of.find(text_[end]) != std::string_view::npos;
+      end += found ? 1 : 0;
+      return found;
+    };
+    const auto take_digits = [&] {
+      while (take("0123456789")) {
+      }
+    };
+    take("-");
+    if (!take("0")) take_digits();
+    if (take(".")) take_digits();
+    if (take("eE")) {
+      take("+-");
+      take_digits();
+    }
+    return end - cursor_;
   }
   std::size_t string_length() {
     skip_to_token();
