@@ -162,6 +162,9 @@ TEST(Atrium, SunReachesFloorAndLowerWallInView) {
   RecordProperty("sunlit_wall_cm2", static_cast<int>(wall * 10000));
   EXPECT_GT(floor, 2);
   EXPECT_GT(wall, 0.2);
+  for (const std::string node : {"urn", "mobile"}) {
+    EXPECT_FALSE(scene().cast(scene().centre(node) + 0.6 * towards_sun(), towards_sun())) << node << " is in the shade";
+  }
 }
 
 TEST(Atrium, NaveCameraSeesWhatMatters) {

@@ -118,7 +118,7 @@ void add_furniture(GltfBuilder& gltf, const Materials& m) {
   };
   place("urn plinth", add_solid(gltf, "urn plinth", plinth(0.36, 0.42), m.stone), {0.55, 0, 0.8});
   place("urn", add_solid(gltf, "urn", urn(), m.brass), {0.55, 0.42, 0.8});
-  place("gem plinth", add_solid(gltf, "gem plinth", plinth(0.27, 0.85), m.stone), {-1.3, 0, -0.1});
+  place("gem plinth", add_solid(gltf, "gem plinth", plinth(0.27, 0.85), m.stone), {-1.3, 0, 0.3});
   const std::vector<Primitive> plant{{pot(), m.clay}, {pot_soil(), m.soil}, {fronds(), m.frond}};
   place("plant", gltf.add_mesh("plant", plant), {1.3, 0, -1.6});
   const std::vector<Primitive> lamp{{lamp_housing(0.26, 1.3), m.iron}, {lamp_panel(0.26, 1.3), m.panel}};
@@ -130,7 +130,7 @@ void add_furniture(GltfBuilder& gltf, const Materials& m) {
 /// A gem in a ring that turns once and bobs once in 4 s, so that the loop closes.
 void add_mobile(GltfBuilder& gltf, const Materials& m) {
   constexpr int kSteps = 16;
-  const glm::dvec3 rest(-1.3, 1.55, -0.1);
+  const glm::dvec3 rest(-1.3, 1.55, 0.3);
   const std::vector<Primitive> primitives{{gem(), m.emerald}, {gem_ring(), m.gold}};
   const size_t node =
       gltf.add_node({.name = "mobile", .mesh = gltf.add_mesh("mobile", primitives), .translation = rest});
