@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/cli/program.hpp"
+
+namespace lightloom::cli {
+
+// Each adds one command with its options and its action; `context` must outlive the program.
+
+/// `arguments` is the whole command line, for the record of the run.
+void add_render_command(Command& program, const CommandContext& context, const std::vector<std::string>& arguments);
+void add_check_command(Command& program, const CommandContext& context);
+void add_plan_command(Command& program, const CommandContext& context);
+void add_passes_command(Command& program, const CommandContext& context);
+void add_scene_command(Command& program, const CommandContext& context);
+void add_devices_command(Command& program, const CommandContext& context);
+void add_completion_command(Command& program, const CommandContext& context);
+
+}  // namespace lightloom::cli

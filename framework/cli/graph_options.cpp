@@ -1,0 +1,31 @@
+#include "framework/cli/graph_options.hpp"
+
+namespace lightloom::cli {
+
+void GraphOptions::add_to(Command& command) {
+  const auto group = [](Option& option) -> Option& { return option.group("Changes to the graph"); };
+  group(command.option("--variant", variants, "Apply a variant that the graph declares")).placeholder("NAME");
+  group(command.option("--set", sets,
+                       "Set a parameter of the graph (NAME=VALUE) or of a pass (PASS.PARAM=VALUE, where PASS "
+                       "may be a pattern such as 'denoise_*')"));
+  group(command.option("--disable", disables, "Disable the passes that match; each output is replaced by its bypass"))
+      .placeholder("GLOB");
+  group(command.option("--swap", swaps, "Exchange the type of the passes that match, e.g. trace=reference_path_trace"))
+      .placeholder("GLOB=TYPE");
+  group(command.option("--dump", dumps, "Write the values that match PASS.PORT or PASS.PORT.PART, '*' for all of them"))
+      .placeholder("GLOB");
+  group(command.option("--size", size, "View size in pixels, instead of the graph's"));
+}
+
+LinkOptions GraphOptions::link_options() const {
+  LinkOptions options;
+  options.variants = variants;
+  options.disables = disables;
+  options.captures = dumps;
+  for (const Assignment& set : sets) options.sets.emplace_back(set.name, set.value);
+  for (const Assignment& swap : swaps) options.swaps.emplace_back(swap.name, swap.value);
+  if (size) options.view = {size->width, size->height};
+  return options;
+}
+
+}  // namespace lightloom::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/cli/argument_parser.hpp"
+#include "framework/graph/link.hpp"
+
+namespace lightloom::cli {
+
+/// The options by which a command line changes a graph; shared by `render`, `plan` and `check`.
+struct GraphOptions {
+  std::vector<std::string> variants;
+  std::vector<Assignment> sets;
+  std::vector<std::string> disables;
+  std::vector<Assignment> swaps;
+  std::vector<std::string> dumps;
+  std::optional<Size> size;
+
+  void add_to(Command& command);
+  [[nodiscard]] LinkOptions link_options() const;
+};
+
+}  // namespace lightloom::cli

@@ -1,0 +1,112 @@
+#include <memory>
+#include <ostream>
+#include <sstream>
+
+#include "framework/base/progress.hpp"
+#include "framework/cli/commands.hpp"
+#include "framework/cli/graph_options.hpp"
+#include "framework/cli/messages.hpp"
+#include "framework/run/render.hpp"
+
+namespace lightloom::cli {
+namespace {
+
+constexpr double kMostFramesPerSecond = 1e6;
+/// Keeps the number of frames, and six digits in file names, in reach.
+constexpr uint32_t kLastFrame = 999'999;
+
+struct RenderOptions {
+  std::filesystem::path graph;
+  std::filesystem::path scene;
+  std::filesystem::path out;
+  GraphOptions changes;
+  std::string camera;
+  Range frames;
+  uint32_t seed = 0;
+  double frames_per_second = 30;
+  std::string device;
+  bool validate = false;
+};
+
+run::RenderRequest make_request(const RenderOptions& options, const std::vector<std::string>& arguments) {
+  run::RenderRequest request;
+  request.graph = options.graph;
+  request.scene = options.scene;
+  request.link = options.changes.link_options();
+  request.camera = options.camera;
+  request.seed = options.seed;
+  request.first_frame = options.frames.first;
+  request.last_frame = options.frames.last;
+  request.frames_per_second = options.frames_per_second;
+  request.out = options.out.empty() ? std::filesystem::path("out") / options.graph.stem() : options.out;
+  request.device = {options.device, options.validate};
+  request.command_line = {"lightloom"};
+  request.command_line.insert(request.command_line.end(), arguments.begin(), arguments.end());
+  return request;
+}
+
+void report(const run::RenderSummary& summary, uint32_t frames, std::ostream& out) {
+  std::ostringstream text;
+  text.precision(3);
+  text << frames << (frames == 1 ? " frame in " : " frames in ") << summary.folder.string() << ", "
+       << summary.milliseconds_per_frame << " ms a frame (median)\n";
+  if (!summary.images.empty()) text << summary.images.back().string() << '\n';
+  out << text.str();
+}
+
+ExitCode render(const RenderOptions& options, const CommandContext& context,
+                const std::vector<std::string>& arguments) {
+  const run::RenderRequest request = make_request(options, arguments);
+  const uint32_t frames = request.last_frame - request.first_frame + 1;
+  Diagnostics diagnostics;
+  run::RenderSummary summary;
+  bool rendered = false;
+  {
+    ProgressBar bar(context.err, context.err_is_terminal, "render", frames == 1 ? "frame" : "frames", frames);
+    rendered = run::render(
+        request, context.registry, [&bar](uint32_t done, uint32_t) { bar.update(done); }, diagnostics, summary);
+  }
+  print_diagnostics(context.err, diagnostics);
+  if (!rendered) return exit_code_of(diagnostics);
+  for (const std::string& warning : summary.warnings) print_warning(context.err, warning);
+  report(summary, frames, context.out);
+  return ExitCode::done;
+}
+
+std::string check_frames(std::string_view text) {
+  Range frames;
+  if (std::string problem = parse_value(text, frames); !problem.empty()) return problem;
+  return frames.last <= kLastFrame ? "" : "frames end at " + std::to_string(kLastFrame);
+}
+
+}  // namespace
+
+void add_render_command(Command& program, const CommandContext& context, const std::vector<std::string>& arguments) {
+  Command& command = program.command("render", "Render frames of a scene by a graph, into a run folder");
+  command.description(
+      "Writes each frame's outputs (radiance.FFFF.exr, image.FFFF.png), the dumped values (dumps/FFFF/PASS.PORT.exr or "
+      ".npy) and run.json, which records all that the pictures depend on and the time of each pass.");
+  auto options = std::make_shared<RenderOptions>();
+  command.positional("GRAPH", options->graph, "Graph file (JSON)").required();
+  command.option("--scene", options->scene, "Scene: .gltf, .glb or .scene.json").required().group("Scene and frames");
+  command.option("--camera", options->camera, "Camera of the scene by name; the first one unless given")
+      .placeholder("NAME")
+      .group("Scene and frames");
+  command.option("--frames", options->frames, "Frames to render, one after another; both ends included")
+      .check(check_frames)
+      .group("Scene and frames");
+  command.option("--fps", options->frames_per_second, "Frames a second of scene time, for animation")
+      .range(1e-6, kMostFramesPerSecond)
+      .group("Scene and frames");
+  command.option("--seed", options->seed, "Seed of all random numbers").group("Scene and frames");
+  options->changes.add_to(command);
+  command.option("-o,--out", options->out, "Run folder, made if missing")
+      .placeholder("DIR")
+      .default_text("out/ and the graph file's name");
+  command.option("--device", options->device, "Device by index or part of its name; 'lightloom devices' lists them")
+      .placeholder("NAME");
+  command.flag("--validate", options->validate, "Check each Vulkan call by the validation layers (slow)");
+  command.action([options, &context, arguments] { return render(*options, context, arguments); });
+}
+
+}  // namespace lightloom::cli
