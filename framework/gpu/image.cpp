@@ -60,6 +60,14 @@ void check_limits(const Device& device, const ImageSpec& spec) {
   require(extent.depth, limits.maxExtent.depth, "texels of depth");
   require(spec.layers, limits.maxArrayLayers, "layers");
   require(spec.mip_levels, limits.maxMipLevels, "mip levels");
+  // Mip levels below the first add at most as much again.
+  const uint64_t bytes = uint64_t{extent.width} * extent.height * extent.depth * spec.layers * texel_bytes(spec.format);
+  if (bytes > limits.maxResourceSize) {
+    throw Error(ExitCode::run_failed,
+                owner + " needs " + bytes_text(bytes) + ", more than the " + bytes_text(limits.maxResourceSize) +
+                    " that one image may have" + on_device,
+                "choose a smaller size or resolution");
+  }
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct ImageSpec {
   uint32_t layers = 1;  ///< 2D only: of a history ring or a texture page
   uint32_t mip_levels = 1;
   VkImageUsageFlags usage = 0;
-  std::string name;  ///< for messages
+  std::string name{};  ///< for messages
 };
 
 /// A view with what is needed to check it against a shader.

@@ -24,15 +24,15 @@ struct ShaderSource {
 struct SpirvModule {
   std::string name;
   Stage stage = Stage::compute;
-  std::vector<uint32_t> words;
+  std::vector<uint32_t> words{};
 };
 
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
 struct ShaderCompilerOptions {
   /// Roots for `#include "lib/x.glsl"` and for `compile_files`, searched in order.
-  std::vector<std::filesystem::path> include_directories;
-  std::filesystem::path cache_directory;  ///< made when missing; empty: no cache on disk
+  std::vector<std::filesystem::path> include_directories{};
+  std::filesystem::path cache_directory{};  ///< made when missing; empty: no cache on disk
 };
 
 struct CompileStatistics {
