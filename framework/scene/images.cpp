@@ -21,7 +21,7 @@ std::string format_of(const std::vector<uint8_t>& bytes) {
     return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
   };
   if (starts_with({0x89, 'P', 'N', 'G'})) return "png";
-  if (starts_with({0xFF, 0xD8, 0xFF})) return "jpg";
+  if (starts_with({0xFF, 0xD8, 0xFF})) return "jpeg";
   return "";
 }
 
@@ -72,13 +72,10 @@ Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, c
   OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
-  OIIO::Filesystem::IOProxy* proxy = &reader;
-  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  const std::string shown_name = "image." + format;
-  const auto input = OIIO::ImageInput::create(shown_name);
+  const auto input = OIIO::ImageInput::create(format);
   if (!input) fail(file, name, "cannot be decoded: " + reason_of(OIIO::geterror()));
   OIIO::ImageSpec spec;
-  if (!input->open(shown_name, spec, config)) {
+  if (!input->set_ioproxy(&reader) || !input->open(format, spec, config)) {
     fail(file, name, "cannot be decoded: " + reason_of(input->geterror()), "the image may be truncated");
   }
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || int64_t{spec.width} * spec.height > kMaxTexels) {
