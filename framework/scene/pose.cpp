@@ -172,6 +172,7 @@ Pose pose(const Scene& scene, double time) {
   Pose result;
   result.cameras = scene.cameras;
   result.punctual = scene.punctual;
+  if (!scene.source) return result;  // made in code: nothing moves
   const SceneSource& source = *scene.source;
   const NodeState state = evaluate_nodes(source, time);
   result.dynamic_vertices.resize(scene.vertices.size() - scene.static_vertex_count);
