@@ -33,6 +33,8 @@ class Executor {
   /// Runs frame number `frame` after the frames run so far, which are its history, and waits for it.
   [[nodiscard]] FrameResult run_frame(uint32_t frame);
 
+  /// What had to be changed in the scene for the device.
+  [[nodiscard]] const std::vector<std::string>& scene_warnings() const { return scene_.warnings(); }
   [[nodiscard]] const Plan& plan() const { return plan_; }
   /// Device memory of all values with their rings [bytes].
   [[nodiscard]] uint64_t value_bytes() const { return images_.bytes(); }

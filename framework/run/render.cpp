@@ -94,8 +94,8 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
   summary.folder = folder.path();
   summary.images = pictures(folder);
   summary.warnings = scene.warnings;
-  const std::vector<std::string> validation = validation_warnings(device);
-  summary.warnings.insert(summary.warnings.end(), validation.begin(), validation.end());
+  for (const std::vector<std::string>& more : {executor.scene_warnings(), validation_warnings(device)})
+    summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
   summary.milliseconds_per_frame = median(progress.wall_milliseconds);
   folder.finish(run_record(request, executor, scene, device, progress, summary.warnings));
   return true;

@@ -10,7 +10,6 @@
 #include "framework/run/pass_recorder.hpp"
 #include "framework/scene/lights.hpp"
 #include "framework/scene/scene.hpp"
-#include "framework/scene/texture_pages.hpp"
 
 namespace lightloom::run {
 
@@ -34,19 +33,24 @@ class SceneResources {
   /// Poses the scene, draws light samples and fills the staging buffer. The frames prepared before are its history.
   void prepare(uint32_t frame);
   void record_upload(VkCommandBuffer commands) const;
+  /// What had to be changed for the device, e.g. resampled textures.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   void upload_geometry(gpu::Device& device);
   void upload_materials(gpu::Device& device);
   void upload_environment(gpu::Device& device);
   void bind();
-  void fill_light_block(LightBlock& block, const scene::Pose& pose, uint32_t frame, uint32_t hint_count) const;
+  /// Returns the number of hints.
+  uint32_t fill_light_block(LightBlock& block, const scene::Pose& pose, uint32_t frame);
 
   const scene::Scene& scene_;
   SceneResourceOptions options_;
   size_t camera_ = 0;
   std::deque<View> views_;  ///< newest first
   scene::EmissionTable emission_;
+  scene::EmitterSampler emitters_;
+  std::vector<std::string> warnings_;
   gpu::Samplers samplers_;
   gpu::Buffer vertices_;
   gpu::Buffer triangles_;

@@ -1,0 +1,204 @@
+#include "framework/run/scene_resources.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <utility>
+
+#include "framework/base/error.hpp"
+#include "framework/gpu/transfer.hpp"
+#include "framework/scene/gpu_material.hpp"
+#include "framework/scene/texture_pages.hpp"
+
+namespace lightloom::run {
+namespace {
+
+constexpr VkDeviceSize kLightOffset = sizeof(FrameBlock);
+constexpr VkDeviceSize kVertexOffset = kLightOffset + sizeof(LightBlock);
+
+template <class T>
+std::span<const std::byte> bytes_of(const std::vector<T>& items) {
+  return std::as_bytes(std::span(items));
+}
+
+/// Vulkan has no empty buffers.
+VkDeviceSize at_least_one(VkDeviceSize size) {
+  return std::max<VkDeviceSize>(size, 16);
+}
+
+VkDeviceSize dynamic_vertex_bytes(const scene::Scene& scene) {
+  return (scene.vertices.size() - scene.static_vertex_count) * sizeof(scene::Vertex);
+}
+
+gpu::Buffer storage_buffer(gpu::Device& device, VkDeviceSize size, const char* name) {
+  const VkDeviceSize limit = device.info().limits.maxStorageBufferRange;
+  if (size > limit)
+    throw Error(ExitCode::invalid_input, std::string("the scene's ") + name + " take " + gpu::bytes_text(size) +
+                                             ", more than the " + gpu::bytes_text(limit) +
+                                             " that a buffer of this device may have");
+  return {device, at_least_one(size), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryKind::device, name};
+}
+
+gpu::Buffer uniform_buffer(gpu::Device& device, VkDeviceSize size, const char* name) {
+  return {device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryKind::device, name};
+}
+
+gpu::Image upload_page(gpu::Device& device, const scene::TexturePage& page) {
+  gpu::Image image(device, {.format = page.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
+                            .dimension = Dimension::d2,
+                            .extent = {page.width, page.height, 1},
+                            .layers = static_cast<uint32_t>(page.images.size()),
+                            .mip_levels = static_cast<uint32_t>(page.mips.size()),
+                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                            .name = "texture page"});
+  std::vector<gpu::SubimageData> subimages;
+  for (uint32_t level = 0; level < page.mips.size(); ++level) {
+    const std::span<const std::byte> texels = std::as_bytes(std::span(page.mips[level]));
+    const size_t layer_bytes = texels.size() / page.images.size();
+    for (uint32_t layer = 0; layer < page.images.size(); ++layer)
+      subimages.push_back({layer, level, texels.subspan(layer * layer_bytes, layer_bytes)});
+  }
+  gpu::upload_image(device, image, subimages);
+  return image;
+}
+
+TriangleRange range(size_t first, size_t end) {
+  return {static_cast<uint32_t>(first), static_cast<uint32_t>(end - first)};
+}
+
+}  // namespace
+
+size_t find_camera(const scene::Scene& scene, const std::string& name) {
+  if (name.empty()) return 0;
+  std::string names;
+  for (size_t index = 0; index < scene.cameras.size(); ++index) {
+    if (scene.cameras[index].name == name) return index;
+    names += (index == 0 ? "'" : ", '") + scene.cameras[index].name + "'";
+  }
+  throw Error(ExitCode::invalid_input, "scene '" + scene.file.string() + "' has no camera '" + name + "'",
+              "its cameras are " + names);
+}
+
+SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene, SceneResourceOptions options)
+    : scene_(scene),
+      options_(std::move(options)),
+      camera_(find_camera(scene, options_.camera)),
+      emission_(scene::build_emission_table(scene)),
+      emitters_(scene, emission_),
+      samplers_(device),
+      vertices_(storage_buffer(device, scene.vertices.size() * sizeof(scene::Vertex), "vertices")),
+      triangles_(storage_buffer(device, scene.triangles.size() * sizeof(scene::Triangle), "triangles")),
+      frame_block_(uniform_buffer(device, sizeof(FrameBlock), "frame block")),
+      light_block_(uniform_buffer(device, sizeof(LightBlock), "light block")),
+      staging_(device, kVertexOffset + dynamic_vertex_bytes(scene), 0, gpu::MemoryKind::upload, "frame inputs") {
+  upload_geometry(device);
+  upload_materials(device);
+  upload_environment(device);
+  bind();
+}
+
+void SceneResources::upload_geometry(gpu::Device& device) {
+  if (scene_.triangles.empty()) return;
+  gpu::upload_buffer(device, vertices_, bytes_of(scene_.vertices));
+  gpu::upload_buffer(device, triangles_, bytes_of(scene_.triangles));
+}
+
+void SceneResources::upload_materials(gpu::Device& device) {
+  const scene::TexturePages pages = scene::build_texture_pages(scene_);
+  warnings_ = pages.warnings;
+  for (const scene::TexturePage& page : pages.pages) texture_pages_.push_back(upload_page(device, page));
+  const scene::TexturePage white{.width = 1, .height = 1, .srgb = false, .images = {0}, .mips = {{255, 255, 255, 255}}};
+  while (texture_pages_.size() < scene::kTexturePageCount) texture_pages_.push_back(upload_page(device, white));
+  const std::vector<scene::GpuMaterial> packed = scene::pack_materials(scene_, pages, emission_);
+  materials_.push_back(storage_buffer(device, packed.size() * sizeof(scene::GpuMaterial), "materials"));
+  gpu::upload_buffer(device, materials_.front(), bytes_of(packed));
+}
+
+void SceneResources::upload_environment(gpu::Device& device) {
+  const scene::Environment& environment = scene_.environment;
+  const bool constant = environment.rgb.empty();
+  const Extent3 extent = constant ? Extent3{1, 1, 1} : Extent3{environment.width, environment.height, 1};
+  std::vector<float> rgba;
+  for (size_t texel = 0; texel < size_t{extent.width} * extent.height; ++texel) {
+    for (size_t channel = 0; channel < 3; ++channel)
+      rgba.push_back(constant ? 1.0f : environment.rgb[texel * 3 + channel]);
+    rgba.push_back(1.0f);
+  }
+  environment_.emplace_back(device,
+                            gpu::ImageSpec{.format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                           .dimension = Dimension::d2,
+                                           .extent = extent,
+                                           .layers = 1,
+                                           .mip_levels = 1,
+                                           .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                           .name = "environment map"});
+  const gpu::SubimageData data{.layer = 0, .mip_level = 0, .texels = bytes_of(rgba)};
+  gpu::upload_image(device, environment_.front(), std::span(&data, 1));
+}
+
+void SceneResources::bind() {
+  std::vector<gpu::ImageResource> pages;
+  for (const gpu::Image& page : texture_pages_)
+    pages.push_back({page.array_view(), samplers_.repeat_trilinear(), VK_IMAGE_LAYOUT_GENERAL});
+  gpu::ResourceMap& resources = bindings_.resources;
+  resources.emplace("FrameBlock", gpu::resource(frame_block_));
+  resources.emplace("LightBlock", gpu::resource(light_block_));
+  resources.emplace("VertexBlock", gpu::resource(vertices_));
+  resources.emplace("TriangleBlock", gpu::resource(triangles_));
+  resources.emplace("MaterialBlock", gpu::resource(materials_.front()));
+  resources.emplace("texture_pages", pages);
+  resources.emplace("environment_map", gpu::resource(environment_.front(), samplers_.equirectangular()));
+  bindings_.features = scene_.features.named();
+  bindings_.static_triangles = range(0, scene_.static_triangle_count);
+  bindings_.dynamic_triangles = range(scene_.static_triangle_count, scene_.triangles.size());
+}
+
+uint32_t SceneResources::fill_light_block(LightBlock& block, const scene::Pose& pose, uint32_t frame) {
+  emitters_.update(scene_, pose.dynamic_vertices);
+  for (uint32_t entry = 0; entry < emission_.entries.size(); ++entry) {
+    const scene::EmissionEntry& emission = emission_.entries[entry];
+    block.emissions[entry] = {.radiance = glm::vec4(emission.radiance, emitters_.area_density(entry)),
+                              .sides = glm::vec4(emission.two_sided ? 1 : 0, 0, 0, 0)};
+  }
+  const std::vector<scene::Hint> hints = emitters_.draw_hints(scene_, options_.seed, frame, kHintLimit);
+  for (size_t index = 0; index < hints.size(); ++index)
+    block.hints[index] = {.position = glm::vec4(hints[index].position, hints[index].entry),
+                          .normal = glm::vec4(hints[index].normal, 0)};
+  const std::vector<PunctualEntry> punctual = make_punctual_entries(pose.punctual);
+  std::copy(punctual.begin(), punctual.end(), std::begin(block.punctual));
+  return static_cast<uint32_t>(hints.size());
+}
+
+void SceneResources::prepare(uint32_t frame) {
+  const scene::Pose pose = scene::pose(scene_, frame / options_.frames_per_second);
+  const auto history_length = static_cast<uint32_t>(views_.size());
+  views_.push_front(view_of(pose.cameras.at(camera_), options_.view, scene_.bounds));
+  if (views_.size() > kHistoryLimit) views_.pop_back();
+
+  LightBlock lights{};
+  const uint32_t hint_count = fill_light_block(lights, pose, frame);
+  const FrameBlock block = make_frame_block(scene_, {.frame = frame,
+                                                     .seed = options_.seed,
+                                                     .history_length = std::min(history_length, kHistoryLimit - 1),
+                                                     .views = {views_.begin(), views_.end()},
+                                                     .hint_count = hint_count});
+  const std::span<std::byte> staging = staging_.mapped();
+  std::memcpy(staging.data(), &block, sizeof block);
+  std::memcpy(staging.data() + kLightOffset, &lights, sizeof lights);
+  if (!pose.dynamic_vertices.empty())
+    std::memcpy(staging.data() + kVertexOffset, pose.dynamic_vertices.data(),
+                pose.dynamic_vertices.size() * sizeof(scene::Vertex));
+}
+
+void SceneResources::record_upload(VkCommandBuffer commands) const {
+  const auto copy = [&](VkDeviceSize from, const gpu::Buffer& to, VkDeviceSize offset, VkDeviceSize size) {
+    const VkBufferCopy region{from, offset, size};
+    vkCmdCopyBuffer(commands, staging_.get(), to.get(), 1, &region);
+  };
+  copy(0, frame_block_, 0, sizeof(FrameBlock));
+  copy(kLightOffset, light_block_, 0, sizeof(LightBlock));
+  if (const VkDeviceSize moving = dynamic_vertex_bytes(scene_); moving > 0)
+    copy(kVertexOffset, vertices_, VkDeviceSize{scene_.static_vertex_count} * sizeof(scene::Vertex), moving);
+}
+
+}  // namespace lightloom::run
