@@ -9,6 +9,7 @@ namespace {
 
 // 65535 groups of 64, the least that every device offers.
 constexpr uint32_t kTrianglesPerDispatch = 65535 * 64;
+constexpr uint32_t kVoxelsPerResolve = 16;  // along z, by one invocation; as in shaders/voxelize_resolve.comp
 
 Port voxels_output() {
   Port port;
@@ -56,13 +57,16 @@ uint32_t slice_count(uint32_t triangles) {
 void record(PassContext& context) {
   const TriangleRange range = chosen_triangles(context);
   context.clear("owner", {0, 0, 0, 0});
+  context.clear("voxels", {0, 0, 0, 0});
   for (uint32_t done = 0; done < range.count; done += kTrianglesPerDispatch) {
     const uint32_t count = std::min(range.count - done, kTrianglesPerDispatch);
     context.dispatch({"voxelize_claim.comp",
                       {count, 1, slice_count(count)},
                       {{"first_triangle", range.first + done}, {"triangle_count", count}}});
   }
-  context.dispatch({"voxelize_resolve.comp", context.output_extent("voxels"), {}});
+  if (range.count == 0) return;
+  const Extent3 grid = context.output_extent("voxels");
+  context.dispatch({"voxelize_resolve.comp", {grid.width, grid.height, (grid.depth - 1) / kVoxelsPerResolve + 1}, {}});
 }
 
 }  // namespace

@@ -13,6 +13,8 @@ uniform writeonly image3D out_voxels_albedo;
 uniform writeonly image3D out_voxels_normal;
 uniform writeonly image3D out_voxels_material;
 
+const int kVoxelsAlone = 16;   // as in passes/voxelize.cpp
+
 VoxelSurface surface_in_voxel(Grid grid, Triangle t, ivec3 voxel) {
   Corners in_grid = grid_corners(grid, t);
   vec3 barycentric = voxel_barycentric(in_grid, voxel);
@@ -39,17 +41,32 @@ VoxelSurface surface_in_voxel(Grid grid, Triangle t, ivec3 voxel) {
   return s;
 }
 
-void main() {
-  ivec3 voxel = ivec3(gl_GlobalInvocationID);
-  ivec3 extent = imageSize(out_voxels_albedo);
-  if (any(greaterThanEqual(voxel, extent))) return;
-  vec4 albedo = vec4(0.0);
-  vec4 normal = vec4(0.0);
-  vec4 material = vec4(0.0);
-  uint claimed = imageLoad(owner, voxel).x;
-  if (claimed != 0u)
-    encode_voxel(surface_in_voxel(scene_grid(extent), triangles[claimed - 1u], voxel), albedo, normal, material);
+void resolve(Grid grid, ivec3 voxel) {
+  vec4 albedo, normal, material;
+  encode_voxel(surface_in_voxel(grid, triangles[imageLoad(owner, voxel).x - 1u], voxel), albedo, normal, material);
   imageStore(out_voxels_albedo, voxel, albedo);
   imageStore(out_voxels_normal, voxel, normal);
   imageStore(out_voxels_material, voxel, material);
+}
+
+int next_claimed(ivec2 column, int z, int end) {
+  while (z < end && imageLoad(owner, ivec3(column, z)).x == 0u) ++z;
+  return z;
+}
+
+// An invocation resolves `kVoxelsAlone` voxels of a column. Few are claimed, and a device that runs a branch for all its
+// lanes as soon as one takes it (on a CPU: always) would pay the full price for the empty ones; between the claimed ones
+// there is only the cheap search. The outputs were cleared before.
+void main() {
+  ivec3 extent = imageSize(out_voxels_albedo);
+  ivec2 column = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(column, extent.xy))) return;
+  Grid grid = scene_grid(extent);
+  int first = int(gl_GlobalInvocationID.z) * kVoxelsAlone;
+  int end = min(first + kVoxelsAlone, extent.z);
+  int z = next_claimed(column, first, end);
+  do {
+    if (z < end) resolve(grid, ivec3(column, z));
+    z = next_claimed(column, z + 1, end);
+  } while (z < end);
 }

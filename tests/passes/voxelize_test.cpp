@@ -92,7 +92,9 @@ TEST_F(VoxelizeTest, ManyTrianglesOfAllSizesInOneDispatch) {
       must = must || (may && touches_voxel(t, voxel, -kBorder));
       if (must) break;
     }
-    if (must == may) ASSERT_EQ(occupied(albedo, voxel), must);
+    if (must == may) {
+      ASSERT_EQ(occupied(albedo, voxel), must);
+    }
   });
 }
 

@@ -1,0 +1,238 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/passes/voxel_support.hpp"
+#include "tests/support/device_fixture.hpp"
+
+namespace lightloom::test {
+namespace {
+
+using GatherTest = DeviceTest;
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+constexpr float kFieldOfView = 0.8f;
+constexpr uint32_t kX = 0, kY = 1, kZ = 2, kW = 3;
+
+Images gather(const scene::Scene& scene) {
+  return run_passes(R"("g": { "type": "gather" })", "g.surface.position", scene);
+}
+
+glm::dvec4 texel(const Images& images, const std::string& part, int x, int y) {
+  const image::HostImage& image = images.at("g.surface." + part);
+  const auto at = [&](uint32_t channel) {
+    return image.at(static_cast<uint32_t>(x), static_cast<uint32_t>(y), 0, channel);
+  };
+  if (part == "id") return {at(kX), at(kY), 0, 0};
+  return {at(kX), at(kY), at(kZ), at(kW)};
+}
+
+glm::dvec3 direction(const Images& images, const std::string& part, int x, int y) {
+  return glm::dvec3(texel(images, part, x, y));
+}
+
+/// Where the ray through a pixel's centre, from (0,0,distance) along -z, meets the plane z = 0 turned by `slope` in x.
+glm::dvec3 on_plane(int x, int y, double distance, double slope) {
+  const double half = std::tan(kFieldOfView / 2);
+  const glm::dvec3 ray((2 * (x + 0.5) / kWidth - 1) * half * kWidth / kHeight, (1 - 2 * (y + 0.5) / kHeight) * half,
+                       -1);
+  const double t = distance / (1 + slope * ray.x);  // z = slope * x
+  return glm::dvec3(0, 0, distance) + t * ray;
+}
+
+scene::Camera front_camera(float distance) {
+  return look_at({0, 0, distance}, {0, 0, 0}, kFieldOfView);
+}
+
+QuadSpec facing_quad(float z, float half_width, float half_height, uint32_t material = 0) {
+  return {{-half_width, -half_height, z}, {2 * half_width, 0, 0}, {0, 2 * half_height, 0}, material};
+}
+
+void expect_direction(const glm::dvec3& got, const glm::dvec3& expected) {
+  EXPECT_LT(glm::distance(got, expected), 2e-3) << got.x << ' ' << got.y << ' ' << got.z;
+}
+
+TEST_F(GatherTest, PositionsNormalsAndDepthsOfASlantedPlaneAreAnalytic) {
+  constexpr double kSlope = 0.5;
+  const QuadSpec quad = {{-8, -8, -4}, {16, 0, 8}, {0, 16, 0}, 0};
+  const scene::Scene scene = make_quad_scene({quad}, {plain({0.25f, 0.5f, 0.75f})}, front_camera(5));
+  const Images images = gather(scene);
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(-kSlope, 0, 1));
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const glm::dvec3 expected = on_plane(x, y, 5, kSlope);
+      const glm::dvec4 position = texel(images, "position", x, y);
+      ASSERT_LT(glm::distance(glm::dvec3(position), expected), 1e-4) << x << ' ' << y;
+      ASSERT_NEAR(position.w, 5 - expected.z, 1e-4);
+      expect_direction(direction(images, "normal", x, y), normal);
+      expect_direction(direction(images, "geometric_normal", x, y), normal);
+      expect_direction(direction(images, "tangent", x, y), glm::normalize(glm::dvec3(1, 0, kSlope)));
+      ASSERT_EQ(texel(images, "id", x, y), glm::dvec4(1, 0, 0, 0));
+    }
+  }
+  EXPECT_EQ(texel(images, "albedo", 9, 9), glm::dvec4(0.25, 0.5, 0.75, 0));
+}
+
+TEST_F(GatherTest, MaterialsBecomeWardLobes) {
+  scene::Material material;
+  material.base_color = {0.5f, 0.5f, 0.5f, 1};
+  material.metallic = 0.25f;
+  material.roughness = 0.5f;
+  material.specular_factor = 0.5f;
+  material.specular_color = glm::vec3(0.5f);
+  material.ior = 2;  // F0 = (1/3)^2
+  material.emission = {2, 3, 70000};
+  material.anisotropy_strength = 0.5f;
+  material.anisotropy_rotation = std::numbers::pi_v<float> / 2;
+  const scene::Scene scene = make_quad_scene({facing_quad(0, 4, 4)}, {material}, front_camera(3));
+  const Images images = gather(scene);
+  const glm::dvec4 lobe = texel(images, "material", 20, 20);
+  EXPECT_NEAR(lobe[kX], 0.25 + 0.75 * 0.25, 1e-3);
+  EXPECT_NEAR(lobe[kY], 0.25, 1e-3);
+  EXPECT_NEAR(lobe[kZ], 0.5 * 0.5 / 9, 1e-4);
+  EXPECT_NEAR(lobe[kW], 0.5, 1e-3);
+  EXPECT_NEAR(texel(images, "albedo", 20, 20)[kW], 0.25, 1e-3);
+  EXPECT_EQ(texel(images, "emission", 20, 20), glm::dvec4(2, 3, 65504, 0));
+  expect_direction(direction(images, "tangent", 20, 20), {0, 1, 0});
+  EXPECT_EQ(texel(images, "tangent", 20, 20)[kW], 1);
+}
+
+TEST_F(GatherTest, SmoothMaterialsKeepALobe) {
+  scene::Material mirror;
+  mirror.roughness = 0;
+  const scene::Scene scene = make_quad_scene({facing_quad(0, 4, 4)}, {mirror}, front_camera(3));
+  const glm::dvec4 lobe = texel(gather(scene), "material", 20, 20);
+  EXPECT_NEAR(lobe[kX], 1e-3, 1e-5);
+  EXPECT_NEAR(lobe[kY], 1e-3, 1e-5);
+}
+
+TEST_F(GatherTest, TheNearerSurfaceIsSeenWhateverTheOrder) {
+  const std::vector<scene::Material> materials = {plain({1, 0, 0}), plain({0, 1, 0})};
+  const QuadSpec near = facing_quad(1, 0.4f, 0.4f, 0);
+  const QuadSpec far = facing_quad(0, 1, 0.7f, 1);
+  for (const auto& quads : {std::vector<QuadSpec>{near, far}, std::vector<QuadSpec>{far, near}}) {
+    const Images images = gather(make_quad_scene(quads, materials, front_camera(3)));
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const glm::dvec3 at_near = on_plane(x, y, 2, 0);
+        const glm::dvec3 at_far = on_plane(x, y, 3, 0);
+        const bool sees_near = std::max(std::abs(at_near.x), std::abs(at_near.y)) < 0.4;
+        const bool sees_far = std::abs(at_far.x) < 1 && std::abs(at_far.y) < 0.7f;
+        const glm::dvec4 expected = sees_near  ? glm::dvec4(1, 0, 0, 0)
+                                    : sees_far ? glm::dvec4(0, 1, 0, 0)
+                                               : glm::dvec4(0);
+        ASSERT_EQ(texel(images, "albedo", x, y), expected) << x << ' ' << y;
+        ASSERT_EQ(texel(images, "id", x, y)[kX] == 0, !sees_near && !sees_far);
+        if (!sees_near && !sees_far) {
+          ASSERT_EQ(texel(images, "position", x, y), glm::dvec4(0));
+        }
+      }
+    }
+  }
+}
+
+TEST_F(GatherTest, ABackIsUnseenUnlessDoubleSidedAndThenTurned) {
+  const QuadSpec away = {{1, -1, 0}, {-2, 0, 0}, {0, 2, 0}, 0};  // its front looks along -z
+  scene::Material material = plain(glm::vec3(1));
+  EXPECT_EQ(texel(gather(make_quad_scene({away}, {material}, front_camera(2))), "id", 32, 24)[kX], 0);
+  material.double_sided = true;
+  const Images images = gather(make_quad_scene({away}, {material}, front_camera(2)));
+  EXPECT_EQ(texel(images, "id", 32, 24)[kX], 1);
+  expect_direction(direction(images, "normal", 32, 24), {0, 0, 1});
+  expect_direction(direction(images, "geometric_normal", 32, 24), {0, 0, 1});
+  EXPECT_EQ(texel(images, "geometric_normal", 32, 24)[kW], 1);
+  // The tangent stays, so the bitangent's sign turns with the normal.
+  expect_direction(direction(images, "tangent", 32, 24), {-1, 0, 0});
+  EXPECT_EQ(texel(images, "tangent", 32, 24)[kW], -1);
+}
+
+/// A quad in front of the camera with an image on it, u to the right, v upwards, and a second quad behind it.
+scene::Scene textured_scene(const scene::Image& image, bool mask) {
+  scene::Material front = plain(glm::vec3(1));
+  front.base_color_texture.image = 0;
+  front.alpha_mode = mask ? scene::AlphaMode::mask : scene::AlphaMode::opaque;
+  scene::Scene scene =
+      make_quad_scene({facing_quad(0, 1, 1), facing_quad(-1, 3, 3, 1)}, {front, plain({0, 0, 1})}, front_camera(3));
+  scene.images = {image};
+  scene.features.textured = true;
+  scene.features.alpha = mask;
+  return scene;
+}
+
+TEST_F(GatherTest, RowZeroOfAnImageIsAtVZero) {
+  const scene::Image image = make_image(64, 64, [](uint32_t x, uint32_t y) {
+    return std::array<uint8_t, 4>{uint8_t(x < 32 ? 255 : 0), uint8_t(y < 32 ? 255 : 0), 0, 255};
+  });
+  const Images images = gather(textured_scene(image, false));
+  // v grows upwards on this quad, so the image stands on its head.
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const glm::dvec3 at = on_plane(x, y, 3, 0);
+      const double border = std::min(std::abs(at.x), std::abs(at.y));
+      if (std::max(std::abs(at.x), std::abs(at.y)) > 0.95 || border < 0.1) continue;
+      EXPECT_NEAR(texel(images, "albedo", x, y)[kX], at.x < 0 ? 1 : 0, 1e-3) << x << ' ' << y;
+      EXPECT_NEAR(texel(images, "albedo", x, y)[kY], at.y < 0 ? 1 : 0, 1e-3) << x << ' ' << y;
+    }
+  }
+}
+
+TEST_F(GatherTest, ThroughCutOutTexelsOneSeesWhatLiesBehind) {
+  const scene::Image image = make_image(64, 64, [](uint32_t x, uint32_t) {
+    return std::array<uint8_t, 4>{255, 255, 255, uint8_t(x < 32 ? 255 : 0)};
+  });
+  for (const bool mask : {true, false}) {
+    const Images images = gather(textured_scene(image, mask));
+    for (int x = 0; x < kWidth; ++x) {
+      const glm::dvec3 at = on_plane(x, 24, 3, 0);
+      if (std::abs(at.x) > 0.95 || std::abs(at.x) < 0.1) continue;
+      const bool sees_front = !mask || at.x < 0;
+      EXPECT_EQ(texel(images, "id", x, 24)[kY], sees_front ? 0 : 1) << x;
+      EXPECT_NEAR(texel(images, "position", x, 24)[kZ], sees_front ? 0 : -1, 1e-4) << x;
+    }
+  }
+}
+
+TEST_F(GatherTest, NormalMapsTiltTheNormalAndTheTangentFollows) {
+  scene::Material material = plain(glm::vec3(1));
+  material.normal_texture.image = 0;
+  scene::Scene scene = make_quad_scene({facing_quad(0, 4, 4)}, {material}, front_camera(3));
+  // (0.6, 0, 0.8) as x * 2 - 1 in 8 bits.
+  scene.images = {make_image(
+      4, 4,
+      [](uint32_t, uint32_t) {
+        return std::array<uint8_t, 4>{204, 128, 230, 255};
+      },
+      false)};
+  scene.features.textured = true;
+  scene.features.normal_mapped = true;
+  const Images images = gather(scene);
+  const glm::dvec3 expected = glm::normalize(glm::dvec3(204, 128, 230) * (2 / 255.0) - 1.0);
+  const glm::dvec3 normal = direction(images, "normal", 30, 20);
+  const glm::dvec3 tangent = direction(images, "tangent", 30, 20);
+  EXPECT_LT(glm::distance(normal, expected), 5e-3);
+  EXPECT_NEAR(glm::dot(normal, tangent), 0, 2e-3);
+  EXPECT_NEAR(glm::length(tangent), 1, 2e-3);
+  EXPECT_GT(tangent.x, 0.7);
+  expect_direction(direction(images, "geometric_normal", 30, 20), {0, 0, 1});
+}
+
+TEST_F(GatherTest, AnOrthographicCameraSeesParallelRays) {
+  scene::Camera camera = front_camera(5);
+  camera.perspective = false;
+  camera.half_height = 2;
+  const QuadSpec quad = {{-8, -8, -4}, {16, 0, 8}, {0, 16, 0}, 0};
+  const Images images = gather(make_quad_scene({quad}, {plain(glm::vec3(1))}, camera));
+  const double depth_of_left = texel(images, "position", 0, 0)[kW];
+  for (int x = 0; x < kWidth; ++x) {
+    const double expected_x = (2 * (x + 0.5) / kWidth - 1) * 2 * kWidth / kHeight;
+    const glm::dvec4 position = texel(images, "position", x, 7);
+    EXPECT_NEAR(position[kX], expected_x, 1e-4);
+    EXPECT_NEAR(position[kZ], 0.5 * expected_x, 1e-3);
+    EXPECT_NEAR(position[kW] - depth_of_left, 0.5 * (texel(images, "position", 0, 7)[kX] - expected_x), 1e-2);
+    EXPECT_GT(position[kW], 0);
+  }
+}
+
+}  // namespace
+}  // namespace lightloom::test
