@@ -113,18 +113,31 @@ class Synchroniser {
                                   Hazard::read_after_write, false, "passes read the frame inputs"});
   }
 
-  /// Constants and rings are cleared before the first frame.
+  /// Constants and rings are cleared before the first frame. Who reads a ring before the frame's own read barriers
+  /// waits for the clear here; all others, the writer too, are reached from here through the barriers of the first
+  /// frame.
   void initialise(ValueId id, const Round& round) {
     const Value& value = plan_.graph.values[id];
     if (!value.constant && value.history == 0) return;
     plan_.prologue.push_back({id, value.constant.value_or(ClearColor{0, 0, 0, 0})});
-    const auto meets_clear = [&](const Reader& reader) { return value.constant || reader.first_age > 0; };
-    for (const Access access : distinct_accesses(round, meets_clear))
+    const auto meets_clear = [&](const Reader& reader) {
+      return value.constant || reader.position < read_barrier_reader(round)->position;
+    };
+    const std::vector<Access> accesses = distinct_accesses(round, meets_clear);
+    for (const Access access : accesses)
       plan_.prologue_barriers.push_back({id, Access::transfer_write, access, Hazard::read_after_write, false,
                                          "cleared, read by " + names_of(round, access, meets_clear)});
-    if (round.write)
+    if (round.write && accesses.empty())
       plan_.prologue_barriers.push_back({id, Access::transfer_write, round.write_access, Hazard::write_after_write,
                                          false, "cleared, written by " + round.writer});
+  }
+
+  /// Before whom the barriers from write to readers stand: the first that can meet this frame's layer; where all look
+  /// back, the first of all, which meets the last frame's.
+  static std::vector<Reader>::const_iterator read_barrier_reader(const Round& round) {
+    const auto first = std::find_if(round.readers.begin(), round.readers.end(),
+                                    [](const Reader& reader) { return reader.first_age == 0; });
+    return first == round.readers.end() ? round.readers.begin() : first;
   }
 
   void one_round(ValueId id, const Round& round) {
@@ -134,31 +147,21 @@ class Synchroniser {
                       round.writer + " wrote it in the last frame"});
       return;
     }
-    // The first that can meet this frame's layer; where all look back, the first that meets the last frame's.
-    auto first = std::find_if(round.readers.begin(), round.readers.end(),
-                              [](const Reader& reader) { return reader.first_age == 0; });
-    const bool history_only = first == round.readers.end();
-    if (history_only) first = round.readers.begin();
+    const auto first = read_barrier_reader(round);
+    const bool history_only = first->first_age > 0;
     const auto anyone = [](const Reader& /*reader*/) { return true; };
     const std::vector<Access> accesses = distinct_accesses(round, anyone);
     for (const Access access : accesses)
       at(first->position)
           .push_back({id, round.write_access, access, Hazard::read_after_write, history_only,
                       round.writer + " writes it, read by " + names_of(round, access, anyone)});
-    const bool between = history_only && first->position <= *round.write;
-    before_next_write(id, round, accesses, between);
+    before_next_write(id, round, accesses);
   }
 
-  /// `read_barrier_between`: the barriers from write to readers stand between the layer's last reads, in an earlier
-  /// frame, and its next write, so that they order readers of the writer's own stages as well.
-  void before_next_write(ValueId id, const Round& round, const std::vector<Access>& accesses,
-                         bool read_barrier_between) {
-    const bool reaches_writer =
-        read_barrier_between && std::any_of(accesses.begin(), accesses.end(),
-                                            [&](Access access) { return same_stages(access, round.write_access); });
+  /// From the stages of every reader. The chain from the last write over its readers orders both writes as well.
+  void before_next_write(ValueId id, const Round& round, const std::vector<Access>& accesses) {
     std::vector<Access> waited_for;
     for (const Access access : accesses) {
-      if (reaches_writer && same_stages(access, round.write_access)) continue;
       const bool known =
           std::any_of(waited_for.begin(), waited_for.end(), [&](Access other) { return same_stages(other, access); });
       if (known) continue;

@@ -11,7 +11,8 @@ namespace lightloom {
 /// `ring_layers` frames on, the next write to the same layer.
 /// - read after write: once, before the first read that can meet the new layer, and at once for the accesses of all
 ///   readers, those of later frames included: whoever comes later finds it visible.
-/// - write after read: before the write, from every reader's stages, in an earlier frame.
+/// - write after read: before the write, from every reader's stages, in an earlier frame. It names the write's access,
+///   so that the chain from the write before is a memory dependency, not of execution alone.
 /// - write after write: only where nothing reads in between (scratch, an output nobody uses).
 void synchronise(Plan& plan);
 
