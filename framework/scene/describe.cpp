@@ -51,6 +51,10 @@ std::string describe(const Scene& scene) {
   for (const auto& [name, present] : summary.features) {
     if (present) features.push_back(name);
   }
+  std::vector<std::string> lights = summary.punctual_lights;
+  if (scene.features.sun) lights.emplace_back("sun");
+  if (scene.features.environment) lights.emplace_back("environment");
+  if (scene.features.emissive) lights.emplace_back("emissive surfaces");
   std::ostringstream out;
   out << summary.file << "\n"
       << "  triangles   " << summary.static_triangles << " static, " << summary.dynamic_triangles << " dynamic, "
@@ -59,8 +63,7 @@ std::string describe(const Scene& scene) {
       << "  objects     " << summary.objects << "\n"
       << "  materials   " << summary.materials << "\n"
       << "  cameras     " << list_or_none(summary.cameras) << "\n"
-      << "  lights      " << list_or_none(summary.punctual_lights) << (scene.features.sun ? ", sun" : "")
-      << (scene.features.environment ? ", environment" : "") << "\n"
+      << "  lights      " << list_or_none(lights) << "\n"
       << "  animations  " << summary.animated_clips << " playing, longest " << summary.duration << " s\n"
       << "  bounds      " << shown(summary.bounds.min) << " to " << shown(summary.bounds.max) << " m\n"
       << "  features    " << list_or_none(features) << "\n"

@@ -67,6 +67,7 @@ Container split_glb(std::span<const uint8_t> bytes, const std::string& file) {
 }
 
 Container split(std::vector<uint8_t> bytes, const std::string& file) {
+  if (bytes.empty()) fail(file, "the file", "is empty, expected glTF");
   if (bytes.size() >= 4 && read_u32(bytes, 0) == kGlbMagic) return split_glb(bytes, file);
   Container container;
   container.json_text.assign(bytes.begin(), bytes.end());

@@ -284,9 +284,10 @@ class Checker {
     }
     if (number_value < field.min || number_value > field.max) {
       std::string range = "a value";
-      if (field.min > -kInfinity) range += " of at least " + json(field.min).dump();
-      if (field.max < kInfinity)
-        range += std::string(field.min > -kInfinity ? " and" : " of") + " at most " + json(field.max).dump();
+      if (field.min > -kInfinity) range += " of at least " + shown(field.min);
+      if (field.max < kMaxInteger)
+        range += (field.min > -kInfinity ? " and at most " : " of at most ") + shown(field.max);
+      if (number_value > field.max && field.max >= kMaxInteger) range += " that fits";
       refuse(path, value, range);
     }
   }
@@ -321,6 +322,11 @@ class Checker {
                    : field.kind == Kind::attribute_list ? Kind::attributes
                                                         : Kind::object;
     for (size_t i = 0; i < value.size(); ++i) check_field(value[i], element, path + "[" + std::to_string(i) + "]");
+  }
+
+  static std::string shown(double number_value) {
+    const bool integral = number_value == std::floor(number_value) && std::abs(number_value) < 1e6;
+    return integral ? std::to_string(static_cast<long>(number_value)) : json(number_value).dump();
   }
 
   [[noreturn]] void refuse(const std::string& path, const json& value, const std::string& expected) const {
