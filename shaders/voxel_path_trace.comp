@@ -53,15 +53,20 @@ PathVertex surface_vertex(Grid grid, ivec2 pixel) {
   return vertex;
 }
 
-PathVertex voxel_vertex(Grid grid, MarchHit hit, vec3 hit_position, vec3 direction, VoxelSurface surface) {
+PathVertex voxel_vertex(Grid grid, MarchHit hit, vec3 origin, vec3 direction, VoxelSurface surface) {
   PathVertex vertex;
-  vec3 normal = dot(surface.normal, direction) <= 0.0 ? surface.normal : -surface.normal;
+  bool front = dot(surface.normal, direction) <= 0.0;
+  vec3 normal = front ? surface.normal : -surface.normal;
   // The march stops anywhere inside the voxel. The centre is the best guess at the depth of the surface; sideways the
   // position is kept, or light would come in blocks. Off the centre, 1.5 clearances leave the voxels of a plane.
+  vec3 hit_position = origin + direction * hit.t;
   vec3 centre = vec3(hit.voxel) + 0.5;
   vec3 position = hit_position + normal * dot(normal, centre - hit_position);
   vertex.position = grid_to_world(grid, position);
-  vertex.origin = position + normal * (1.5 * surface_clearance(normal));
+  // A normal that faces away may be that of the other wall of an edge, and its back the outside of the room: then the
+  // path goes on from the last place that was empty.
+  vertex.origin = front ? position + normal * (1.5 * surface_clearance(normal))
+                        : origin + direction * max(hit.t - 1.0, 0.0);
   vertex.geometric_normal = normal;
   vertex.basis = make_frame(facing_normal(normal, -direction), surface.tangent);
   vertex.incoming = to_local(vertex.basis, -direction);
@@ -102,9 +107,8 @@ vec3 trace_path(Grid grid, PathVertex vertex, RandomKey key) {
     VoxelSurface surface =
         decode_voxel(texelFetch(voxels_albedo, hit.voxel, 0), texelFetch(voxels_normal, hit.voxel, 0),
                      texelFetch(voxels_material, hit.voxel, 0));
-    vec3 hit_position = vertex.origin + direction * hit.t;
     vec3 from = vertex.position;
-    vertex = voxel_vertex(grid, hit, hit_position, direction, surface);
+    vertex = voxel_vertex(grid, hit, vertex.origin, direction, surface);
     vec3 path = vertex.position - from;
     radiance += throughput * voxel_emission(surface, direction, dot(path, path), scatter);
   }
