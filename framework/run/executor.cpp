@@ -53,13 +53,21 @@ void Executor::record_frame(VkCommandBuffer commands) {
   for (const PlanStep& step : plan_.steps) {
     const GraphPass& pass = plan_.graph.passes[step.pass];
     record_barriers(commands, step.barriers);
-    timestamps_.write(commands, query++);
+    record_timestamp(commands, query++);
     PassRecorder recorder(environment, plan_.graph, pass);
     pass.type->record(recorder);
-    timestamps_.write(commands, query++);
+    record_timestamp(commands, query++);
     record_copies(commands, step.copies);
   }
   Readback::record_end(commands);
+}
+
+void Executor::record_timestamp(VkCommandBuffer commands, uint32_t query) const {
+  // Passes are timed one by one: nothing may overlap the stamp. The barrier after it also makes lavapipe, which puts
+  // stamps off until something flushes, take it here.
+  gpu::record_full_barrier(commands);
+  timestamps_.write(commands, query);
+  gpu::record_full_barrier(commands);
 }
 
 void Executor::record_copies(VkCommandBuffer commands, const std::vector<Copy>& copies) const {

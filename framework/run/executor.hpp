@@ -41,6 +41,7 @@ class Executor {
 
  private:
   void record_frame(VkCommandBuffer commands);
+  void record_timestamp(VkCommandBuffer commands, uint32_t query) const;
   void record_copies(VkCommandBuffer commands, const std::vector<Copy>& copies) const;
   [[nodiscard]] FrameResult collect(uint32_t frame) const;
 
