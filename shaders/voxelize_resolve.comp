@@ -37,7 +37,7 @@ VoxelSurface surface_in_voxel(Grid grid, Triangle t, ivec3 voxel) {
   s.ward_alpha = m.ward_alpha;
   s.f0 = m.f0;
   s.f90 = m.f90;
-  s.emission = any(greaterThan(m.emission, vec3(0.0))) ? materials[t.material].flags.z : 0u;
+  s.emission = emission_index(t.material, m.emission);
   return s;
 }
 

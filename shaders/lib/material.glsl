@@ -11,7 +11,7 @@ struct MaterialSample {
   vec2 ward_alpha;    // along the tangent and across it, kWardAlphaMin..1
   float f0;           // specular reflectance of the dielectric part at normal incidence …
   float f90;          // … and at grazing incidence
-  vec3 emission;      // [W m^-2 sr^-1]; 0 where the texel is darker than the material's threshold
+  vec3 emission;      // [W m^-2 sr^-1]
   bool unlit;         // base_color is what is seen; reflects nothing
   vec3 normal;        // unit, in the frame (tangent, bitangent, normal)
   vec2 direction;     // unit, of the lobe's long axis in the frame (tangent, bitangent)
@@ -73,8 +73,14 @@ vec3 material_emission(uint id, TexturePoint point) {
   if (!has_emissive) return vec3(0.0);
   vec3 factor = materials[id].emission.rgb;
   if (!any(greaterThan(factor, vec3(0.0)))) return vec3(0.0);
-  vec3 radiance = factor * sample_texture(materials[id].emissive_texture, point, vec4(1.0)).rgb;
-  return luminance(radiance) < materials[id].emission.w ? vec3(0.0) : radiance;
+  return factor * sample_texture(materials[id].emissive_texture, point, vec4(1.0)).rgb;
+}
+
+// Index into the emission table, by which the surface lights others. Dim texels are seen but light nothing: the host
+// draws no light samples on them either.
+uint emission_index(uint id, vec3 emission) {
+  bool emits = any(greaterThan(emission, vec3(0.0))) && luminance(emission) >= materials[id].emission.w;
+  return emits ? materials[id].flags.z : 0u;
 }
 
 MaterialSample sample_material(uint id, TexturePoint point, vec4 vertex_color) {

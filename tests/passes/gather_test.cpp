@@ -193,6 +193,69 @@ TEST_F(GatherTest, ThroughCutOutTexelsOneSeesWhatLiesBehind) {
   }
 }
 
+TEST_F(GatherTest, AFineTextureFarAwayIsItsMean) {
+  // About ten texels a pixel; the mean of black and white in linear light is 1/2.
+  const scene::Image checker = make_image(256, 256, [](uint32_t x, uint32_t y) {
+    const auto value = uint8_t((x + y) % 2 * 255);
+    return std::array<uint8_t, 4>{value, value, value, 255};
+  });
+  const Images images = gather(textured_scene(checker, false));
+  for (int x = 26; x < 38; ++x) EXPECT_NEAR(texel(images, "albedo", x, 24)[kX], 0.5, 0.01) << x;
+}
+
+/// Texel coordinate that glTF's wrap modes give, of `size` texels.
+int wrapped(int i, scene::Wrap wrap, int size) {
+  if (wrap == scene::Wrap::clamp) return std::clamp(i, 0, size - 1);
+  const int period = wrap == scene::Wrap::mirror ? 2 * size : size;
+  const int r = ((i % period) + period) % period;
+  return r < size ? r : period - 1 - r;
+}
+
+TEST_F(GatherTest, TextureUsesHaveTheirTransformTheirWrapModesAndTheirCoordinates) {
+  // The three channels are the bits of the texel's place in the image of 4 x 2.
+  const scene::Image code = make_image(4, 2, [](uint32_t x, uint32_t y) {
+    return std::array<uint8_t, 4>{uint8_t(x % 2 * 255), uint8_t(x / 2 * 255), uint8_t(y * 255), 255};
+  });
+  using Wraps = std::pair<scene::Wrap, scene::Wrap>;
+  for (const Wraps& wraps :
+       {Wraps{scene::Wrap::repeat, scene::Wrap::mirror}, Wraps{scene::Wrap::mirror, scene::Wrap::clamp},
+        Wraps{scene::Wrap::clamp, scene::Wrap::repeat}}) {
+    scene::Scene scene = textured_scene(code, false);
+    scene::TextureUse& use = scene.materials[0].base_color_texture;
+    use.nearest = true;
+    use.texcoord = 1;
+    use.wrap_u = wraps.first;
+    use.wrap_v = wraps.second;
+    use.linear_transform = glm::mat2(2.0f, 0.5f, -0.5f, 3.0f);
+    use.offset = {-0.3f, -0.7f};
+    for (scene::Vertex& vertex : scene.vertices) vertex.uv1 = {vertex.u0 + 0.1f, vertex.v0 * 0.5f};
+    const Images images = gather(scene);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const glm::dvec3 at = on_plane(x, y, 3, 0);
+        if (std::max(std::abs(at.x), std::abs(at.y)) > 0.95) continue;
+        const glm::dvec2 uv((at.x + 1) / 2 + 0.1, (at.y + 1) / 4);
+        const glm::dvec2 moved = glm::dmat2(use.linear_transform) * uv + glm::dvec2(use.offset);
+        const glm::dvec2 texels(moved.x * 4, moved.y * 2);
+        const glm::dvec2 from_border = glm::abs(texels - glm::round(texels));
+        if (std::min(from_border.x, from_border.y) < 1e-3) continue;
+        const int i = wrapped(static_cast<int>(std::floor(texels.x)), wraps.first, 4);
+        const int j = wrapped(static_cast<int>(std::floor(texels.y)), wraps.second, 2);
+        ASSERT_EQ(texel(images, "albedo", x, y), glm::dvec4(i % 2, i / 2, j, 0)) << x << ' ' << y;
+      }
+    }
+  }
+}
+
+TEST_F(GatherTest, VertexColoursMultiplyTheBaseColour) {
+  scene::Scene scene = make_quad_scene({facing_quad(0, 4, 4)}, {plain({1, 0.5f, 1})}, front_camera(3));
+  for (scene::Vertex& vertex : scene.vertices) vertex.color = 0xFF0080FFu;  // red 255, green 128, blue 0
+  const glm::dvec4 albedo = texel(gather(scene), "albedo", 20, 20);
+  EXPECT_NEAR(albedo[kX], 1, 1e-3);
+  EXPECT_NEAR(albedo[kY], 0.5 * 128 / 255, 1e-3);
+  EXPECT_NEAR(albedo[kZ], 0, 1e-3);
+}
+
 TEST_F(GatherTest, NormalMapsTiltTheNormalAndTheTangentFollows) {
   scene::Material material = plain(glm::vec3(1));
   material.normal_texture.image = 0;
