@@ -46,6 +46,11 @@ std::string without_prefix(std::string message) {
     message.erase(0, bracket + 2);
   if (const auto colon = message.find(": "); message.starts_with("parse error at") && colon != std::string::npos)
     message.erase(0, colon + 2);
+  // "…; last read: 'raw text'; expected …": the raw text runs back over the lines before.
+  if (const auto raw = message.find("; last read: "); raw != std::string::npos) {
+    const auto expected = message.rfind("; expected ");
+    message.erase(raw, expected == std::string::npos || expected < raw ? std::string::npos : expected - raw);
+  }
   return message;
 }
 
