@@ -172,7 +172,10 @@ Pose pose(const Scene& scene, double time) {
   Pose result;
   result.cameras = scene.cameras;
   result.punctual = scene.punctual;
-  if (!scene.source) return result;  // made in code: nothing moves
+  if (!scene.source) {  // made in code: nothing moves
+    result.dynamic_vertices.assign(scene.vertices.begin() + scene.static_vertex_count, scene.vertices.end());
+    return result;
+  }
   const SceneSource& source = *scene.source;
   const NodeState state = evaluate_nodes(source, time);
   result.dynamic_vertices.resize(scene.vertices.size() - scene.static_vertex_count);

@@ -219,6 +219,31 @@ TEST_F(VoxelizeTest, CutOutTexelsClaimNothing) {
   }
 }
 
+TEST_F(VoxelizeTest, StaticAndDynamicTrianglesAreToldApart) {
+  // Two triangles far from each other; the second one moves.
+  scene::Scene scene = make_triangle_scene({{glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)},
+                                            {glm::vec3(3, 3, 3), glm::vec3(4, 3, 3), glm::vec3(3, 4, 3)}},
+                                           {plain(glm::vec3(1)), plain(glm::vec3(0.25f))});
+  scene.static_vertex_count = 3;
+  scene.static_triangle_count = 1;
+  scene.features.dynamic = true;
+  const Images fixed = voxelize(scene, 20, "static");
+  const Images moving = voxelize(scene, 20, "dynamic");
+  const Images all = voxelize(scene, 20, "all");
+  size_t fixed_count = 0;
+  size_t moving_count = 0;
+  for_each_voxel(all.at("v.voxels.albedo"), [&](const glm::ivec3& voxel) {
+    const bool is_fixed = occupied(fixed.at("v.voxels.albedo"), voxel);
+    const bool is_moving = occupied(moving.at("v.voxels.albedo"), voxel);
+    fixed_count += is_fixed ? 1 : 0;
+    moving_count += is_moving ? 1 : 0;
+    ASSERT_EQ(occupied(all.at("v.voxels.albedo"), voxel), is_fixed || is_moving);
+    ASSERT_EQ(byte_at(all.at("v.voxels.albedo"), voxel, 0), is_fixed ? 255 : is_moving ? 128 : 0);
+  });
+  EXPECT_GT(fixed_count, 8u);
+  EXPECT_GT(moving_count, 8u);
+}
+
 TEST_F(VoxelizeTest, NoDynamicTrianglesGiveAnEmptyGrid) {
   const scene::Scene scene = make_triangle_scene(random_triangles(20, 2.0f, 8), {plain(glm::vec3(1))});
   const Images images = voxelize(scene, 16, "dynamic");
