@@ -24,8 +24,8 @@ inline std::vector<PortPart> surface_parts() {
   };
 }
 
-/// The paper's three RGBA8 images of the voxel grid (section 2.1); encodings in shaders/lib/voxel_encoding.glsl. A voxel
-/// has no side: its normal is that of the front face, and a reader turns it to where its ray came from.
+/// The paper's three RGBA8 images of the voxel grid (section 2.1); encodings in shaders/lib/voxel_encoding.glsl. A
+/// voxel has no side: its normal is that of the front face, and a reader turns it to where its ray came from.
 inline std::vector<PortPart> voxel_parts() {
   return {
       {"albedo", Format::rgba8_unorm, "rgb: square root of the linear base colour; a: 1 where occupied"},

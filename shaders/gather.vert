@@ -1,5 +1,5 @@
-// Vertices of the G-buffer by vertex pulling. All three corners of a triangle compute the same face, so nothing about it
-// needs derivatives.
+// Vertices of the G-buffer by vertex pulling. All three corners of a triangle compute the same face, so nothing about
+// it needs derivatives.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -13,8 +13,8 @@ struct Corners {
 vec3 area_normal(Corners t) { return cross(t.b - t.a, t.c - t.a); }
 
 // Barycentric coordinates of the triangle's point nearest to `p`. Ericson 2005, "Real-Time Collision Detection", 5.1.5:
-// the Voronoi region of p (corner, edge or face) is found from dot products alone. A triangle without area gives a point
-// of it, never NaN.
+// the Voronoi region of p (corner, edge or face) is found from dot products alone. A triangle without area gives a
+// point of it, never NaN.
 vec3 nearest_barycentric(vec3 p, Corners t) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;

@@ -1,6 +1,7 @@
 // Which voxels a triangle touches. Schwarz and Seidel 2010, "Fast Parallel Surface and Solid Voxelization on GPUs",
-// section 4: box of the triangle, plane, and the three projections' edges. The triangle is seen along the axis its normal
-// is closest to: a column of voxels along it holds only few candidates, so cost grows with the area, not with the box.
+// section 4: box of the triangle, plane, and the three projections' edges. The triangle is seen along the axis its
+// normal is closest to: a column of voxels along it holds only few candidates, so cost grows with the area, not with
+// the box.
 //
 // All in grid units. `margin` widens each voxel against rounding, so that no touched voxel is ever missed.
 #ifndef LIGHTLOOM_LIB_SUPERCOVER
