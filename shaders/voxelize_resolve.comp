@@ -54,8 +54,8 @@ int next_claimed(ivec2 column, int z, int end) {
   return z;
 }
 
-// An invocation resolves `kVoxelsAlone` voxels of a column. Few are claimed, and a device that runs a branch for all its
-// lanes as soon as one takes it (on a CPU: always) would pay the full price for the empty ones; between the claimed
+// An invocation resolves `kVoxelsAlone` voxels of a column. Few are claimed, and a device that runs a branch for all
+// its lanes as soon as one takes it (on a CPU: always) would pay the full price for the empty ones; between the claimed
 // ones there is only the cheap search. The outputs were cleared before.
 void main() {
   ivec3 extent = imageSize(out_voxels_albedo);
