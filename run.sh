@@ -10,9 +10,9 @@ install_packages
 build_targets lightloom
 
 if [[ $# -gt 0 ]]; then
-  exec "$root/build/lightloom" "$@"
+  exec "$build/lightloom" "$@"
 fi
 
 cd -- "$root"
-build/lightloom render graphs/paper.json --scene samples/scenes/atrium.scene.json --frames 0..9 --out out/atrium
+"$build/lightloom" render graphs/paper.json --scene samples/scenes/atrium.scene.json --frames 0..9 --out out/atrium
 say "the last picture is $root/out/atrium/image.0009.png"

@@ -8,4 +8,4 @@ source "$root/.ci/setup.sh"
 install_packages
 build_targets all
 
-exec ctest --test-dir "$root/build" --output-on-failure --no-tests=error --parallel 2 "$@" </dev/null
+exec ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel 2 "$@" </dev/null

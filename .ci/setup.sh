@@ -1,6 +1,9 @@
 # Set-up shared by run.sh and test.sh, to be sourced. Everything it says goes to standard error.
 # shellcheck shell=bash disable=SC2154 # root is set by who sources this
 
+# Where it is built; LIGHTLOOM_BUILD names another folder.
+build=${LIGHTLOOM_BUILD:-$root/build}
+
 say() { printf 'lightloom: %s\n' "$*" >&2; }
 
 give_up() {
@@ -49,9 +52,9 @@ install_packages() {
     give_up "these packages are missing and cannot be installed: ${missing[*]}"
 }
 
-# build_targets TARGET...: a Release build in build/, quiet unless it fails.
+# build_targets TARGET...: a Release build in $build, quiet unless it fails.
 build_targets() {
-  local build=$root/build fresh=() launcher=()
+  local fresh=() launcher=()
   mkdir -p -- "$build" || give_up "cannot make the folder $build"
   # Two builds at the same time would write the same files.
   exec 9>"$build/.lock"

@@ -100,14 +100,14 @@ class Command {
   /// `names`: "--size" or "-s,--size". A std::vector target makes the option repeatable; the target's present value is
   /// the default that help shows, none for std::optional.
   template <typename T>
-  Option& option(std::string_view names, T& target, std::string doc) {
-    return add_option(names, std::move(doc), describe(target));
+  Option& option(std::string_view names, T& target, const std::string& doc) {
+    return add_option(names, doc, describe(target));
   }
   Option& flag(std::string_view names, bool& target, std::string doc);
   /// Positionals are filled in the order of their declaration; only the last may be repeated (a vector).
   template <typename T>
-  Option& positional(std::string name, T& target, std::string doc) {
-    return add_positional(std::move(name), std::move(doc), describe(target));
+  Option& positional(const std::string& name, T& target, const std::string& doc) {
+    return add_positional(name, doc, describe(target));
   }
   Command& command(std::string name, std::string summary);
   /// Paragraphs between the summary and the usage line.
@@ -149,8 +149,8 @@ class Command {
     Binding binding;
     binding.assign = [&target](std::string_view text) { return parse_value(text, target); };
     binding.placeholder = value_placeholder<typename Kind::Element>();
-    binding.repeated = Kind::repeated;
-    if constexpr (!Kind::optional) binding.default_text = format_value(target);
+    binding.repeated = Kind::kRepeated;
+    if constexpr (!Kind::kOptional) binding.default_text = format_value(target);
     if constexpr (std::is_same_v<typename Kind::Element, std::filesystem::path>) binding.completion = Completion::files;
     return binding;
   }

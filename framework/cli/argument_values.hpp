@@ -72,20 +72,20 @@ template <typename T>
 /// What kind of value a target takes, as far as help and completion care.
 template <typename T>
 struct ValueKind {
-  static constexpr bool repeated = false;
-  static constexpr bool optional = false;
+  static constexpr bool kRepeated = false;
+  static constexpr bool kOptional = false;
   using Element = T;
 };
 template <typename T>
 struct ValueKind<std::optional<T>> {
-  static constexpr bool repeated = false;
-  static constexpr bool optional = true;
+  static constexpr bool kRepeated = false;
+  static constexpr bool kOptional = true;
   using Element = T;
 };
 template <typename T>
 struct ValueKind<std::vector<T>> {
-  static constexpr bool repeated = true;
-  static constexpr bool optional = true;
+  static constexpr bool kRepeated = true;
+  static constexpr bool kOptional = true;
   using Element = T;
 };
 

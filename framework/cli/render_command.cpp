@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 #include <ostream>
 #include <sstream>
@@ -45,13 +46,22 @@ run::RenderRequest make_request(const RenderOptions& options, const std::vector<
   return request;
 }
 
-void report(const run::RenderSummary& summary, uint32_t frames, std::ostream& out) {
+/// Three digits, more only before the point.
+std::string milliseconds_text(double milliseconds) {
   std::ostringstream text;
-  text.precision(3);
-  text << frames << (frames == 1 ? " frame in " : " frames in ") << summary.folder.string() << ", "
-       << summary.milliseconds_per_frame << " ms a frame (median)\n";
-  if (!summary.images.empty()) text << summary.images.back().string() << '\n';
-  out << text.str();
+  if (milliseconds >= 100) {
+    text << std::llround(milliseconds);
+  } else {
+    text.precision(3);
+    text << milliseconds;
+  }
+  return text.str() + " ms";
+}
+
+void report(const run::RenderSummary& summary, uint32_t frames, std::ostream& out) {
+  out << frames << (frames == 1 ? " frame in " : " frames in ") << summary.folder.string() << ", "
+      << milliseconds_text(summary.milliseconds_per_frame) << " a frame (median)\n";
+  if (!summary.images.empty()) out << summary.images.back().string() << '\n';
 }
 
 ExitCode render(const RenderOptions& options, const CommandContext& context,

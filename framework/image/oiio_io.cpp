@@ -47,7 +47,8 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file, 
   return input;
 }
 
-void read_samples(OIIO::ImageInput& input, const std::filesystem::path& file, OIIO::TypeDesc type, void* samples) {
+void read_samples(OIIO::ImageInput& input, const std::filesystem::path& file, const OIIO::TypeDesc& type,
+                  void* samples) {
   if (!input.read_image(0, 0, 0, input.spec().nchannels, type, samples)) {
     fail_to_read(file, input.format_name(), input.geterror());
   }

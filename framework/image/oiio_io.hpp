@@ -21,7 +21,8 @@ void encode_and_write(const std::filesystem::path& file, const std::string& form
                                                            const OIIO::ImageSpec& config);
 
 /// Reads all of the first part as `type`, tightly packed, into `samples`.
-void read_samples(OIIO::ImageInput& input, const std::filesystem::path& file, OIIO::TypeDesc type, void* samples);
+void read_samples(OIIO::ImageInput& input, const std::filesystem::path& file, const OIIO::TypeDesc& type,
+                  void* samples);
 
 /// Throws Error (run_failed) unless the image has as many texels as its description says.
 void require_complete(const HostImage& image, const std::filesystem::path& file);
