@@ -30,6 +30,16 @@ PassType make_voxel_path_trace() {
        {},
        "",
        "times that light may be scattered on its way to the first hit; 0 leaves direct light"},
+      {"regularization",
+       ParamType::real,
+       0.5,
+       0,
+       1,
+       {},
+       "",
+       "a path that left a lobe of some Ward alpha sees later lobes at least as wide, up to this alpha (the base "
+       "counts "
+       "as 1); keeps reflections of the sun by glossy surfaces from becoming speckle on others; 0 turns it off"},
   };
   type.reads = FrameState::camera | FrameState::seed | FrameState::lights;
   type.record = [](PassContext& context) {

@@ -32,6 +32,7 @@ uniform writeonly image2D out_radiance;
 layout(push_constant) uniform Params {
   uint paths;
   uint bounces;
+  float regularization;
 };
 
 // Voxel normals are 0.8 degrees off and tangents up to 10: a sharper lobe would only turn that into speckle.
@@ -53,7 +54,8 @@ PathVertex surface_vertex(Grid grid, ivec2 pixel) {
   return vertex;
 }
 
-PathVertex voxel_vertex(Grid grid, MarchHit hit, vec3 origin, vec3 direction, VoxelSurface surface) {
+PathVertex voxel_vertex(Grid grid, MarchHit hit, vec3 origin, vec3 direction, VoxelSurface surface,
+                        float least_alpha) {
   PathVertex vertex;
   bool front = dot(surface.normal, direction) <= 0.0;
   vec3 normal = front ? surface.normal : -surface.normal;
@@ -70,7 +72,7 @@ PathVertex voxel_vertex(Grid grid, MarchHit hit, vec3 origin, vec3 direction, Vo
   vertex.geometric_normal = normal;
   vertex.basis = make_frame(facing_normal(normal, -direction), surface.tangent);
   vertex.incoming = to_local(vertex.basis, -direction);
-  vec2 alpha = max(surface.ward_alpha, vec2(kVoxelMinimumAlpha));
+  vec2 alpha = max(surface.ward_alpha, vec2(least_alpha));
   vertex.bsdf = Bsdf(surface.albedo, surface.metallic, surface.f0, surface.f90, alpha);
   return vertex;
 }
@@ -89,6 +91,7 @@ vec3 voxel_emission(VoxelSurface surface, vec3 direction, float distance_squared
 vec3 trace_path(Grid grid, PathVertex vertex, RandomKey key) {
   vec3 radiance = vec3(0.0);
   vec3 throughput = vec3(1.0);
+  float least_alpha = kVoxelMinimumAlpha;
   for (uint bounce = 0u; bounce <= bounces; ++bounce) {
     vec4 light_random = random4(key, bounce, kDimensionLight);
     radiance += throughput * direct_light(grid, distance, voxels_material, vertex, light_random);
@@ -108,7 +111,8 @@ vec3 trace_path(Grid grid, PathVertex vertex, RandomKey key) {
         decode_voxel(texelFetch(voxels_albedo, hit.voxel, 0), texelFetch(voxels_normal, hit.voxel, 0),
                      texelFetch(voxels_material, hit.voxel, 0));
     vec3 from = vertex.position;
-    vertex = voxel_vertex(grid, hit, vertex.origin, direction, surface);
+    least_alpha = max(least_alpha, min(scatter.roughness, regularization));
+    vertex = voxel_vertex(grid, hit, vertex.origin, direction, surface, least_alpha);
     vec3 path = vertex.position - from;
     radiance += throughput * voxel_emission(surface, direction, dot(path, path), scatter);
   }

@@ -26,6 +26,7 @@ struct BsdfSample {
   vec3 weight;   // f cos / pdf; 0: the path ends
   float pdf;     // [sr^-1], of all lobes together; meaningless for a mirror
   bool mirror;   // the direction has no density: no other strategy could have found it
+  float roughness;   // of the lobe that was picked: the larger alpha, 1 for the base
 };
 
 float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
@@ -87,10 +88,11 @@ vec3 sample_cosine_hemisphere(vec2 u) {
 
 // One direction from the mixture of both lobes. `u`: three uniform numbers.
 BsdfSample bsdf_sample(Bsdf bsdf, vec3 i, vec3 u) {
-  BsdfSample result = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false);
+  BsdfSample result = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, 1.0);
   if (i.z <= kWardMinimumCosine) return result;
   float specular = has_specular ? specular_probability(bsdf, i.z) : 0.0;
   bool pick_specular = u.x < specular;
+  if (pick_specular) result.roughness = max(bsdf.alpha.x, bsdf.alpha.y);
   if (pick_specular && ward_is_mirror(bsdf.alpha)) {
     result.direction = vec3(-i.xy, i.z);
     result.weight = specular_fresnel(bsdf, i.z) / specular;
