@@ -262,6 +262,7 @@ GltfFile read_gltf_file(const std::filesystem::path& path) {
   file.name = path.string();
   Container container = split(read_bytes(path, ""), file.name);
   json document = parse_json(container.json_text, file.name);
+  normalise_numbers(document);
   check_gltf_json(document, file.name);
   check_version(document, file.name);
   check_extensions(document, file);

@@ -279,7 +279,7 @@ class Checker {
     const bool integral = field.kind == Kind::integer;
     if (!value.is_number()) refuse(path, value, integral ? "an integer" : "a number");
     const double number_value = value.get<double>();
-    if (!std::isfinite(number_value) || (integral && number_value != std::floor(number_value))) {
+    if (!std::isfinite(number_value) || (integral && !value.is_number_integer())) {
       refuse(path, value, integral ? "an integer" : "a finite number");
     }
     if (number_value < field.min || number_value > field.max) {
@@ -342,7 +342,28 @@ class Checker {
 }  // namespace
 
 void check_gltf_json(const nlohmann::json& document, const std::string& file) {
+  // Arrays first: an index into something that is no array is best explained by that.
+  for (const Field& field : document_type().fields) {
+    const bool wrong = field.kind == Kind::objects && document.is_object() &&
+                       document.contains(std::string(field.name)) && !document[std::string(field.name)].is_array();
+    if (wrong)
+      fail(file, std::string(field.name),
+           "is " + std::string(document[std::string(field.name)].type_name()) + ", expected an array");
+  }
   Checker(document, file).check_object(document, document_type(), "");
+}
+
+void normalise_numbers(nlohmann::json& document, bool in_extension) {
+  if (document.is_number_float()) {
+    const double value = document.get<double>();
+    if (std::abs(value) <= kMaxInteger && value == std::floor(value)) document = static_cast<int64_t>(value);
+  } else if (document.is_number_integer() && in_extension && std::abs(document.get<double>()) > kMaxInteger) {
+    document = document.get<double>();
+  } else if (document.is_object()) {
+    for (auto& [key, value] : document.items()) normalise_numbers(value, in_extension || key == "extensions");
+  } else if (document.is_array()) {
+    for (nlohmann::json& value : document) normalise_numbers(value, in_extension);
+  }
 }
 
 void check_json_depth(const std::string& text, const std::string& file) {

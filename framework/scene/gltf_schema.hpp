@@ -10,6 +10,10 @@ namespace lightloom::scene {
 /// Members that the loader does not use are not looked at.
 void check_gltf_json(const nlohmann::json& document, const std::string& file);
 
+/// Integers may be written with a fraction of zero ("2.0"), which readers that look at the type of a number ignore:
+/// turns those into integers. Within extensions, integers beyond 32 bits become reals, as tinygltf would cut them.
+void normalise_numbers(nlohmann::json& document, bool in_extension = false);
+
 /// Throws Error if `text` nests arrays and objects deeper than a sane file does; readers of JSON values recurse.
 void check_json_depth(const std::string& text, const std::string& file);
 

@@ -25,6 +25,45 @@ std::string format_of(const std::vector<uint8_t>& bytes) {
   return "";
 }
 
+uint32_t big_endian(const std::vector<uint8_t>& bytes, size_t offset, size_t size) {
+  uint32_t value = 0;
+  for (size_t k = 0; k < size; ++k) value = value << 8 | bytes[offset + k];
+  return value;
+}
+
+// Whether all chunks of a PNG lie within the file; libpng would print about those that do not.
+bool is_whole_png(const std::vector<uint8_t>& bytes) {
+  constexpr uint32_t kEnd = 0x49454E44u;  // "IEND"
+  size_t offset = 8;
+  while (offset + 12 <= bytes.size()) {
+    const size_t length = big_endian(bytes, offset, 4);
+    if (length > bytes.size() - offset - 12) return false;
+    if (big_endian(bytes, offset + 4, 4) == kEnd) return true;
+    offset += 12 + length;
+  }
+  return false;
+}
+
+// Whether a JPEG reaches its end marker; libjpeg fills what is missing with grey and says nothing.
+bool is_whole_jpeg(const std::vector<uint8_t>& bytes) {
+  size_t offset = 2;
+  while (offset + 2 <= bytes.size()) {
+    const uint8_t marker = bytes[offset + 1];
+    const bool in_scan = bytes[offset] != 0xFF || marker == 0x00 || marker == 0xFF;
+    if (in_scan) {
+      ++offset;
+    } else if (marker == 0xD9) {
+      return true;
+    } else if (marker >= 0xD0 && marker <= 0xD8) {
+      offset += 2;
+    } else {
+      if (offset + 4 > bytes.size()) return false;
+      offset += 2 + big_endian(bytes, offset + 2, 2);
+    }
+  }
+  return false;
+}
+
 std::string reason_of(const std::string& error) {
   return error.empty() ? "unknown reason" : error.substr(0, error.find('\n'));
 }
@@ -69,6 +108,9 @@ void run_parallel(size_t count, const std::function<void(size_t)>& task) {
 Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, const std::string& name) {
   const std::string format = format_of(bytes);
   if (format.empty()) fail(file, name, "is not a PNG or JPEG image, expected one of these");
+  if (!(format == "png" ? is_whole_png(bytes) : is_whole_jpeg(bytes))) {
+    fail(file, name, "ends in the middle of its data, expected a whole image", "the image may be truncated");
+  }
   OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
