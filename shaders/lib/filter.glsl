@@ -3,8 +3,12 @@
 #define LIGHTLOOM_LIB_FILTER
 
 // Roughness along the tangent and bitangent as the filters see it. What a Lambertian surface reflects looks the same
-// from everywhere, so it counts as 1; `share` is the specular part of the reflectance.
-vec2 filter_roughness(vec2 alpha, float share) { return mix(vec2(1.0), clamp(alpha, vec2(0.0), vec2(1.0)), share); }
+// from everywhere, so it counts as 1. `share` is the specular part of the reflectance; its fourth power, because of a
+// surface that does both the base's noise is seen long before the reflection's edges are.
+vec2 filter_roughness(vec2 alpha, float share) {
+  float share2 = share * share;
+  return mix(vec2(1.0), clamp(alpha, vec2(0.0), vec2(1.0)), share2 * share2);
+}
 
 // Weight of a frame `age` frames ago (paper, section 2.3): a Hermite curve over the age, stretched by the roughness.
 // 1 for all ages at roughness 1, 0 for all but the current frame at roughness 0, and in between it falls to 0 at age
