@@ -78,6 +78,8 @@ void write_exr(const std::filesystem::path& file, const HostImage& image,
                        sample_type(type));
   spec.channelnames = channel_names;
   spec.attribute("compression", "zip");
+  // OpenImageIO writes the time of day otherwise; equal images are to be equal files.
+  spec.attribute("DateTime", "");
   if (type == ChannelType::unorm8) {
     encode_and_write(file, "openexr", spec, half_from_unorm8(image.texels).data());
   } else {

@@ -1,0 +1,257 @@
+// The main job end to end: the paper's graph on the sample scene, small, with validation on.
+#include "framework/run/render.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "framework/base/error.hpp"
+#include "framework/base/file.hpp"
+#include "framework/image/exr.hpp"
+#include "framework/image/png.hpp"
+#include "framework/run/compile_graph.hpp"
+#include "passes/registry.hpp"
+
+namespace lightloom::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint32_t kWidth = 128;
+constexpr uint32_t kHeight = 96;
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream bytes;
+  bytes << stream.rdbuf();
+  return bytes.str();
+}
+
+/// Whether two runs wrote the same file. (EXPECT_EQ on the bytes would print them.)
+bool same_file(const fs::path& one, const fs::path& other) {
+  return bytes_of(one) == bytes_of(other);
+}
+
+class Render : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    passes::register_builtin_passes(registry_);
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / ("lightloom-render-" + std::string(test->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    nlohmann::ordered_json graph = nlohmann::ordered_json::parse(read_text_file(source("graphs/paper.json")));
+    graph["view"] = {{"width", kWidth}, {"height", kHeight}};
+    graph["trace"] = {{"width", kWidth}, {"height", kHeight}};
+    graph["params"]["resolution"] = 96;
+    std::ofstream(folder_ / "small.json") << graph.dump(1);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static fs::path source(const char* relative) { return fs::path(LIGHTLOOM_SOURCE_DIR) / relative; }
+
+  RenderRequest request(const std::string& out, uint32_t last_frame) const {
+    RenderRequest made;
+    made.graph = folder_ / "small.json";
+    made.scene = source("samples/scenes/atrium.scene.json");
+    made.last_frame = last_frame;
+    made.out = folder_ / out;
+    made.device.validate = true;
+    return made;
+  }
+
+  /// Renders, and demands that neither the graph nor the validation layers complain.
+  RenderSummary render_cleanly(const RenderRequest& wanted) {
+    Diagnostics diagnostics;
+    RenderSummary summary;
+    const bool done = render(wanted, registry_, {}, diagnostics, summary);
+    for (const Diagnostic& diagnostic : diagnostics.all()) ADD_FAILURE() << format_diagnostic(diagnostic);
+    for (const std::string& warning : summary.warnings) ADD_FAILURE() << warning;
+    EXPECT_TRUE(done);
+    return summary;
+  }
+
+  PassRegistry registry_;
+  fs::path folder_;
+};
+
+/// Mean of a channel over a rectangle given in fractions of the image.
+double mean(const image::ExrImage& image, const char* channel, double x0, double y0, double x1, double y1) {
+  double sum = 0;
+  int count = 0;
+  for (auto y = static_cast<uint32_t>(y0 * image.height); y < static_cast<uint32_t>(y1 * image.height); ++y)
+    for (auto x = static_cast<uint32_t>(x0 * image.width); x < static_cast<uint32_t>(x1 * image.width); ++x, ++count)
+      sum += image.at(x, y, channel);
+  return sum / count;
+}
+
+/// Noise of what the filters made: mean absolute difference of horizontal and vertical neighbours on the right wall,
+/// which is flat and evenly lit, relative to the mean there.
+double noise(const image::ExrImage& image) {
+  double difference = 0;
+  double sum = 0;
+  for (uint32_t y = image.height * 4 / 10; y < image.height * 7 / 10; ++y)
+    for (uint32_t x = image.width * 94 / 100; x + 1 < image.width; ++x) {
+      difference += std::abs(image.at(x, y, "G") - image.at(x + 1, y, "G"));
+      difference += std::abs(image.at(x, y, "G") - image.at(x, y + 1, "G"));
+      sum += image.at(x, y, "G");
+    }
+  return difference / sum;
+}
+
+TEST_F(Render, ThePictureShowsTheAtrium) {
+  render_cleanly(request("run", 9));
+  const image::ExrImage radiance = image::read_exr(folder_ / "run/radiance.0009.exr");
+  ASSERT_EQ(radiance.width, kWidth);
+  ASSERT_EQ(radiance.height, kHeight);
+  for (uint32_t y = 0; y < kHeight; ++y)
+    for (uint32_t x = 0; x < kWidth; ++x)
+      for (const char* channel : {"R", "G", "B"}) {
+        const double value = radiance.at(x, y, channel);
+        ASSERT_TRUE(std::isfinite(value) && value >= 0) << channel << " at " << x << "," << y << " is " << value;
+      }
+  // Places of the scene in camera "nave": the red wall behind the left colonnade, the blue one on the right, the panel
+  // on the back wall, the sunlit white arcade and the shaded wooden beams.
+  const double red_wall = mean(radiance, "R", 0.15, 0.35, 0.20, 0.5);
+  EXPECT_GT(red_wall, 2 * mean(radiance, "B", 0.15, 0.35, 0.20, 0.5));
+  EXPECT_GT(mean(radiance, "B", 0.93, 0.45, 1.0, 0.7), 1.5 * mean(radiance, "R", 0.93, 0.45, 1.0, 0.7));
+  EXPECT_GT(mean(radiance, "G", 0.625, 0.44, 0.64, 0.52), 5) << "the emissive panel";
+  EXPECT_GT(mean(radiance, "G", 0.06, 0.4, 0.10, 0.7), 3 * mean(radiance, "G", 0.45, 0.08, 0.6, 0.1))
+      << "a sunlit column against the beams under the roof";
+  EXPECT_GT(mean(radiance, "G", 0.4, 0.2, 0.65, 0.55), 0.01) << "indirect light must reach the back wall";
+}
+
+TEST_F(Render, WatchingEveryValueChangesNoBit) {
+  RenderRequest watched = request("watched", 2);
+  watched.link.captures = {"*"};
+  render_cleanly(request("plain", 2));
+  render_cleanly(watched);
+  for (const char* file : {"image.0000.png", "image.0002.png", "radiance.0000.exr", "radiance.0002.exr"})
+    EXPECT_TRUE(same_file(folder_ / "plain" / file, folder_ / "watched" / file)) << file;
+}
+
+TEST_F(Render, EveryValueOfEveryPassIsDumped) {
+  RenderRequest watched = request("watched", 0);
+  watched.link.captures = {"*"};
+  render_cleanly(watched);
+  const scene::Scene scene = scene::load_scene(watched.scene);
+  Diagnostics diagnostics;
+  const std::optional<Plan> plan = compile_graph(watched.graph, registry_, watched.link, &scene, diagnostics);
+  ASSERT_TRUE(plan);
+  size_t expected = 0;
+  for (const Value& value : plan->graph.values) {
+    if (value.constant) continue;
+    ++expected;
+    const std::string extension = value.desc.dimension == Dimension::d3 ? ".npy" : ".exr";
+    EXPECT_TRUE(fs::is_regular_file(folder_ / "watched/dumps/0000" / (value_name(value) + extension)))
+        << value_name(value);
+  }
+  EXPECT_GT(expected, 30u);
+  const nlohmann::json index = nlohmann::json::parse(read_text_file(folder_ / "watched/dumps/index.json"));
+  EXPECT_EQ(index.size(), expected);
+}
+
+TEST_F(Render, TheSameRequestGivesTheSameBits) {
+  render_cleanly(request("first", 2));
+  render_cleanly(request("second", 2));
+  for (const char* file : {"image.0002.png", "radiance.0002.exr"})
+    EXPECT_TRUE(same_file(folder_ / "first" / file, folder_ / "second" / file)) << file;
+}
+
+TEST_F(Render, TheSeedChangesTheNoiseButNotThePicture) {
+  RenderRequest one_seed = request("one", 0);
+  RenderRequest other = request("other", 0);
+  other.seed = 99;
+  one_seed.link.sets = other.link.sets = {{"paths", "16"}};
+  render_cleanly(one_seed);
+  render_cleanly(other);
+  EXPECT_FALSE(same_file(folder_ / "one/radiance.0000.exr", folder_ / "other/radiance.0000.exr"));
+  const double one = mean(image::read_exr(folder_ / "one/radiance.0000.exr"), "G", 0, 0, 1, 1);
+  const double two = mean(image::read_exr(folder_ / "other/radiance.0000.exr"), "G", 0, 0, 1, 1);
+  EXPECT_NEAR(one / two, 1, 0.05);
+}
+
+TEST_F(Render, EachDenoiserPassSmoothesAndKeepsTheBrightness) {
+  const auto filtered = [&](const std::string& name, const std::string& disabled) {
+    RenderRequest wanted = request(name, 3);
+    if (!disabled.empty()) wanted.link.disables = {disabled};
+    wanted.link.captures = {"upsample.radiance"};
+    render_cleanly(wanted);
+    return image::read_exr(folder_ / name / "dumps/0003/upsample.radiance.exr");
+  };
+  const image::ExrImage without = filtered("none", "denoise_*");
+  const image::ExrImage with = filtered("all", "");
+  EXPECT_LT(noise(with), 0.5 * noise(without));
+  EXPECT_NEAR(mean(with, "G", 0, 0, 1, 1) / mean(without, "G", 0, 0, 1, 1), 1, 0.05);
+  for (const char* pass : {"denoise_tangent", "denoise_bitangent", "denoise_box_x", "denoise_box_y"}) {
+    const image::ExrImage image = filtered(pass, pass);
+    EXPECT_GT(noise(image), noise(with)) << pass;
+    EXPECT_LT(noise(image), noise(without)) << pass;
+  }
+}
+
+TEST_F(Render, TheAnimatedGemMoves) {
+  RenderRequest earlier = request("earlier", 0);
+  RenderRequest later = request("later", 30);
+  later.first_frame = 30;
+  earlier.link.captures = later.link.captures = {"gather.surface.id"};
+  render_cleanly(earlier);
+  render_cleanly(later);
+  const image::ExrImage before = image::read_exr(folder_ / "earlier/dumps/0000/gather.surface.id.exr");
+  const image::ExrImage after = image::read_exr(folder_ / "later/dumps/0030/gather.surface.id.exr");
+  int changed = 0;
+  for (uint32_t y = 0; y < kHeight; ++y)
+    for (uint32_t x = 0; x < kWidth; ++x) changed += before.at(x, y, "object") != after.at(x, y, "object") ? 1 : 0;
+  EXPECT_GT(changed, 5);
+  EXPECT_LT(changed, static_cast<int>(kWidth * kHeight / 10)) << "only the gem moves";
+}
+
+TEST_F(Render, AGraphThatDoesNotLinkLeavesNothingBehind) {
+  RenderRequest impossible = request("impossible", 0);
+  impossible.link.disables = {"gather", "upsample"};
+  Diagnostics diagnostics;
+  RenderSummary summary;
+  EXPECT_FALSE(render(impossible, registry_, {}, diagnostics, summary));
+  EXPECT_TRUE(diagnostics.has_errors());
+  std::string text;
+  for (const Diagnostic& diagnostic : diagnostics.sorted()) text += format_diagnostic(diagnostic) + "\n";
+  EXPECT_NE(text.find("gather"), std::string::npos) << text;
+  EXPECT_NE(text.find("upsample"), std::string::npos) << "both in one go:\n" << text;
+  EXPECT_FALSE(fs::exists(folder_ / "impossible"));
+}
+
+TEST_F(Render, AnUnknownCameraLeavesNothingBehind) {
+  RenderRequest wrong = request("wrong", 0);
+  wrong.camera = "crane";
+  Diagnostics diagnostics;
+  RenderSummary summary;
+  EXPECT_THROW(render(wrong, registry_, {}, diagnostics, summary), Error);
+  EXPECT_FALSE(fs::exists(folder_ / "wrong"));
+}
+
+TEST_F(Render, TheRecordTellsWhatWasRun) {
+  RenderRequest recorded = request("run", 1);
+  recorded.seed = 5;
+  recorded.link.sets = {{"bounces", "1"}};
+  render_cleanly(recorded);
+  const nlohmann::json record = nlohmann::json::parse(read_text_file(folder_ / "run/run.json"));
+  EXPECT_EQ(record["seed"], 5);
+  EXPECT_EQ(record["graph"]["params"]["bounces"], 1);
+  EXPECT_EQ(record["camera"], "nave");
+  EXPECT_EQ(record["graph"]["plan_hash"].get<std::string>().size(), 16u);
+  EXPECT_FALSE(record["device"]["name"].get<std::string>().empty());
+  bool traced = false;
+  for (const nlohmann::json& pass : record["passes"]) {
+    traced = traced || pass["pass"] == "trace";
+    EXPECT_EQ(pass["frames_ms"].size(), 2u) << pass["pass"];
+  }
+  EXPECT_TRUE(traced);
+  for (const nlohmann::json& file : record["files"])
+    EXPECT_TRUE(fs::is_regular_file(folder_ / "run" / file.get<std::string>())) << file;
+}
+
+}  // namespace
+}  // namespace lightloom::run
