@@ -183,7 +183,7 @@ void apply_when(Node& node, const LinkEnvironment& environment, Report& report) 
     names.push_back(name);
     if (name != feature) continue;
     if (present != negated || !node.enabled()) return;
-    node.disabled = "when " + when.text + ": the scene has " + (present ? "" : "no ") + name;
+    node.disabled = "\"when\": \"" + when.text + "\" does not hold";
     node.disabled_where = when.where;
     return;
   }
