@@ -182,9 +182,13 @@ TEST(Docs, test_sh_passes_its_arguments_to_ctest) {
 
 TEST(Docs, run_sh_keeps_exit_codes_and_the_callers_folder) {
   const Sandbox sandbox;
-  EXPECT_EQ(sandbox.run("./run.sh nonsense").first, 2);
-  EXPECT_EQ(sandbox.run("mkdir below; cd below; ../run.sh check ../graphs/paper.json").first, 0);
-  EXPECT_EQ(sandbox.run("./run.sh check no/such.json").first, 3);
+  const auto expect_status = [&sandbox](int expected, const std::string& commands) {
+    const auto [status, output] = sandbox.run(commands);
+    EXPECT_EQ(status, expected) << commands << "\n" << output;
+  };
+  expect_status(2, "./run.sh nonsense");
+  expect_status(0, "mkdir below; cd below; ../run.sh check ../graphs/paper.json");
+  expect_status(3, "./run.sh check no/such.json");
 }
 
 TEST(Docs, every_command_of_the_program_is_documented) {
