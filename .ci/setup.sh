@@ -21,19 +21,24 @@ missing_packages() {
   printf '%s\n' "${wanted[@]}" | grep -vxF -f <(printf '%s\n' "$installed") || true
 }
 
-# Runs a command as root; its output is shown only if it fails.
+# Runs a command; its output is shown only if it fails.
+quietly() {
+  local log status=0
+  log=$(mktemp)
+  "$@" >"$log" 2>&1 </dev/null || status=$?
+  [[ $status -eq 0 ]] || cat -- "$log" >&2
+  rm -f -- "$log"
+  return "$status"
+}
+
 as_root() {
-  local log status=0 sudo=()
+  local sudo=()
   if [[ $EUID -ne 0 ]]; then
     sudo=(sudo)
     # Without a terminal nobody could type a password.
     [[ -t 0 ]] || sudo=(sudo -n)
   fi
-  log=$(mktemp)
-  "${sudo[@]}" "$@" >"$log" 2>&1 </dev/null || status=$?
-  [[ $status -eq 0 ]] || cat -- "$log" >&2
-  rm -f -- "$log"
-  return "$status"
+  quietly "${sudo[@]}" "$@"
 }
 
 install_packages() {
@@ -63,10 +68,10 @@ build_targets() {
     [[ ! -f $build/CMakeCache.txt ]] || fresh=(--fresh)
     ! command -v ccache >/dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
     say "configuring in $build"
-    cmake "${fresh[@]}" -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release "${launcher[@]}" --log-level=WARNING >&2 ||
+    quietly cmake "${fresh[@]}" -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release "${launcher[@]}" ||
       give_up "CMake cannot configure the build"
   fi
   [[ -x $build/lightloom ]] || say "building (the first build takes some minutes)"
-  ninja -C "$build" --quiet "$@" >&2 </dev/null || give_up "the build failed"
+  quietly ninja -C "$build" --quiet "$@" || give_up "the build failed"
   exec 9>&-
 }
