@@ -18,7 +18,7 @@ enum class Hazard : uint8_t { read_after_write, write_after_read, write_after_wr
 constexpr ValueId kFrameInputs = std::numeric_limits<ValueId>::max();
 
 /// A memory dependency between all earlier `from` accesses and all later `to` accesses to all layers of a value. No
-/// layout changes: images live in GENERAL. With write_after_read the execution dependency is enough.
+/// layout changes: images live in GENERAL.
 struct Barrier {
   ValueId value = 0;
   Access from = Access::none;

@@ -11,7 +11,6 @@ void record_barriers(VkCommandBuffer commands, std::span<const Barrier> barriers
     const AccessInfo& to = access_info(barrier.to);
     memory.srcStageMask |= from.stages;
     memory.dstStageMask |= to.stages;
-    if (barrier.hazard == Hazard::write_after_read) continue;  // an execution dependency is enough
     memory.srcAccessMask |= from.access;
     memory.dstAccessMask |= to.access;
   }

@@ -126,6 +126,7 @@ class Assembler {
         draw.skin = source.skin < 0 ? -1 : first_skin + source.skin;
         draw.material = material_index(found, primitive->material);
         draw.object = object;
+        if (transmits(scene_.materials[draw.material])) continue;
         draws_.push_back(std::move(draw));
       }
     }
@@ -236,7 +237,9 @@ class Assembler {
     for (Camera& camera : scene_.cameras) place_camera(camera, state);
     for (PunctualLight& light : scene_.punctual) place_light(light, state);
     if (scene_.triangles.empty()) fail(scene_.file.string(), "the scene", "contains no triangles");
-    if (dropped_ > 0) scene_.warnings.push_back(std::to_string(dropped_) + " degenerate triangles were dropped");
+    if (dropped_ > 0)
+      scene_.warnings.push_back(std::to_string(dropped_) + (dropped_ == 1 ? " degenerate triangle was dropped"
+                                                                          : " degenerate triangles were dropped"));
   }
 
   void add_geometry(Draw& draw, const NodeState& state, bool dynamic) {

@@ -176,7 +176,9 @@ void check_extensions(const json& document, GltfFile& file) {
     }
   }
   for (const json& name : document.value("extensionsUsed", json::array())) {
-    if (!supported.contains(name.get<std::string>())) {
+    // Only approximated, hence good enough where a file can do without, but not where it is required.
+    const bool approximated = name == "KHR_materials_transmission";
+    if (!supported.contains(name.get<std::string>()) && !approximated) {
       file.warnings.push_back(file.name + ": extension " + name.get<std::string>() + " is not supported and ignored");
     }
   }

@@ -97,6 +97,15 @@ class MaterialReader {
       material.specular_texture = texture(*specular, "specularTexture");
       material.specular_color_texture = texture(*specular, "specularColorTexture");
     }
+    if (const Value* transmission = extension(source.extensions, "KHR_materials_transmission")) {
+      material.transmission = number_or(*transmission, "transmissionFactor", 0);
+      if (transmits(material)) {
+        warnings_.push_back(
+            file_.name + ": " + path_ + " (" + material.name +
+            ") transmits light (KHR_materials_transmission); its surfaces are left out, as if it did not "
+            "refract");
+      }
+    }
     if (const Value* anisotropy = extension(source.extensions, "KHR_materials_anisotropy")) {
       material.anisotropy_strength = number_or(*anisotropy, "anisotropyStrength", 0);
       material.anisotropy_rotation = number_or(*anisotropy, "anisotropyRotation", 0);

@@ -21,4 +21,10 @@ struct TextureUseRef {
 /// Reflectance at normal incidence of a dielectric: ((ior - 1) / (ior + 1))^2; 1 for an ior of 0 (KHR_materials_ior).
 [[nodiscard]] float dielectric_f0(float ior);
 
+/// Whether light goes through rather than off the surface: glass. Nothing here refracts, so such surfaces would only
+/// be opaque walls around what they let be seen.
+[[nodiscard]] inline bool transmits(const Material& material) {
+  return material.transmission > 0.5f;
+}
+
 }  // namespace lightloom::scene

@@ -101,11 +101,12 @@ const ObjectType& material_extensions_type() {
   static const ObjectType specular{{number("specularFactor", 0, 1), object("specularTexture", texture),
                                     numbers("specularColorFactor", 3, 0), object("specularColorTexture", texture)}};
   static const ObjectType ior{{number("ior", 0)}};
+  static const ObjectType transmission{{number("transmissionFactor", 0, 1), object("transmissionTexture", texture)}};
   static const ObjectType unlit{};
-  static const ObjectType type{{object("KHR_materials_anisotropy", anisotropy),
-                                object("KHR_materials_emissive_strength", emissive),
-                                object("KHR_materials_specular", specular), object("KHR_materials_ior", ior),
-                                object("KHR_materials_unlit", unlit)}};
+  static const ObjectType type{
+      {object("KHR_materials_anisotropy", anisotropy), object("KHR_materials_emissive_strength", emissive),
+       object("KHR_materials_specular", specular), object("KHR_materials_ior", ior),
+       object("KHR_materials_transmission", transmission), object("KHR_materials_unlit", unlit)}};
   return type;
 }
 

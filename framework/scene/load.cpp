@@ -1,3 +1,5 @@
+#include <glm/glm.hpp>
+
 #include "framework/scene/assemble.hpp"
 #include "framework/scene/fail.hpp"
 #include "framework/scene/finish.hpp"
@@ -22,12 +24,38 @@ bool has_light(const Features& features) {
   return features.emissive || features.sun || features.punctual || features.environment;
 }
 
+/// What a model without light of its own is shown under: an even white sky [W·m⁻²·sr⁻¹] and a sun from the upper left
+/// of the made-up camera [W·m⁻²], wide enough to show as a highlight on smooth metal [radians].
+constexpr float kModelSky = 0.3f;
+constexpr float kModelSunIrradiance = 2.0f;
+constexpr float kModelSunRadius = 0.03f;
+const glm::vec3 kModelSunDirection(0.35f, -1.0f, -0.6f);
+
+/// A glTF file is often a model for others to light: without a camera, or with nothing that emits. Viewers show such a
+/// file under a light of their own, and so do we, or a lamp seen from above its shade would be a black picture. A scene
+/// file says itself what light there is, and so does a glTF file with punctual lights.
+bool needs_model_light(const Scene& scene, bool scene_file) {
+  if (scene_file || !scene.punctual.empty()) return false;
+  return scene.cameras.empty() || !has_light(scene.features);
+}
+
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& file) {
+  const bool scene_file = file.extension() == ".json";
   Scene scene = assemble(file, describe_file(file));
   scene.bounds = find_bounds(scene);
   scene.features = find_features(scene);
+  if (needs_model_light(scene, scene_file)) {
+    scene.environment.radiance = glm::vec3(kModelSky);
+    scene.sun = Sun{.direction = glm::normalize(kModelSunDirection),
+                    .irradiance = glm::vec3(kModelSunIrradiance),
+                    .angular_radius = kModelSunRadius};
+    scene.features = find_features(scene);
+    scene.warnings.push_back(file.string() +
+                             ": is a model without camera or light of its own, and is shown under a white sky and a "
+                             "sun; a scene file can give it others");
+  }
   if (scene.cameras.empty()) scene.cameras.push_back(framing_camera(scene.bounds));
   if (!has_light(scene.features)) {
     scene.warnings.push_back(

@@ -56,7 +56,8 @@ struct Material {
   float roughness = 1;        ///< perceptual; Ward alpha = roughness²
   float specular_factor = 1;  ///< KHR_materials_specular
   glm::vec3 specular_color{1};
-  float ior = 1.5f;  ///< KHR_materials_ior
+  float ior = 1.5f;        ///< KHR_materials_ior
+  float transmission = 0;  ///< KHR_materials_transmission; surfaces with more than 0.5 are left out, with a warning
   float normal_scale = 1;
   float anisotropy_strength = 0;
   float anisotropy_rotation = 0;  ///< [radians], counter-clockwise from the tangent

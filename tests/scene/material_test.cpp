@@ -199,5 +199,40 @@ TEST(Image, TruncatedOrForeignContentIsAnError) {
   }
 }
 
+TEST(Materials, GlassIsLeftOutAndSaidSo) {
+  GltfBuilder builder;
+  builder.append("materials", nlohmann::json::parse(R"({"name": "wall"})"));
+  builder.append("materials",
+                 nlohmann::json::parse(
+                     R"({"name": "pane", "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}})"));
+  builder.append(
+      "materials",
+      nlohmann::json::parse(
+          R"({"name": "milk", "extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.25}}})"));
+  for (int material = 0; material < 3; ++material) builder.node({{"mesh", builder.quad(material)}});
+  const Scene scene = builder.load();
+  EXPECT_EQ(scene.triangles.size(), 4u) << "the wall and the milk glass";
+  for (const Triangle& triangle : scene.triangles) EXPECT_NE(scene.materials[triangle.material].name, "pane");
+  int said = 0;
+  for (const std::string& warning : scene.warnings)
+    said += warning.find("(pane) transmits light") != std::string::npos ? 1 : 0;
+  EXPECT_EQ(said, 1);
+}
+
+TEST(Materials, AModelWithoutCameraIsShownUnderASkyAndASunAndAScenesOwnLightIsKept) {
+  GltfBuilder model;
+  model.node({{"mesh", model.quad()}});
+  EXPECT_GT(model.load().environment.radiance.x, 0);
+  EXPECT_TRUE(model.load().sun);
+
+  GltfBuilder lit;
+  lit.append("materials", nlohmann::json::parse(R"({"emissiveFactor": [1, 1, 1]})"));
+  lit.append("cameras", nlohmann::json::parse(R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}})"));
+  lit.node({{"mesh", lit.quad(0)}});
+  lit.node({{"camera", 0}});
+  EXPECT_EQ(lit.load().environment.radiance, glm::vec3(0));
+  EXPECT_FALSE(lit.load().sun);
+}
+
 }  // namespace
 }  // namespace lightloom::scene
