@@ -14,7 +14,7 @@ PassType make_box_blur() {
       image_output_like("radiance", Format::rgba32_sfloat, "radiance", "rgb: filtered radiance; a: as it came in");
   radiance.bypass = Bypass{"radiance", {}};
   type.ports = {image_input("radiance", Format::rgba32_sfloat, "what to filter"),
-                surface_input("surface", "G-buffer at the size of `radiance`"), radiance};
+                same_size_as("radiance", surface_input("surface", "G-buffer of the same pixels")), radiance};
   type.params = {
       {"axis", ParamType::choice, std::string("x"), {}, {}, {"x", "y"}, "", "direction on the screen"},
       {"radius", ParamType::integer, int64_t{2}, 0, 64, {}, "pixels", "half width; the kernel has 2 radius + 1 taps"},

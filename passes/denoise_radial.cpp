@@ -8,15 +8,14 @@ PassType make_denoise_radial() {
   PassType type;
   type.name = "denoise_radial";
   type.doc =
-      "Mean along the tangent or bitangent of each surface, marched outwards from the centre on the screen. The length "
-      "is "
-      "scaled by the roughness along that axis and grows with the distance from the viewer; a radial cut-off, the "
-      "normals and the object id keep light from bleeding (paper, section 2.4, passes one and two).";
+      "Mean along the tangent or bitangent of each surface, marched outwards from the centre on the screen. The "
+      "length is scaled by the roughness along that axis and grows with the distance from the viewer; a radial "
+      "cut-off, the normals and the object id keep light from bleeding (paper, section 2.4, passes one and two).";
   Port radiance =
       image_output_like("radiance", Format::rgba32_sfloat, "radiance", "rgb: filtered radiance; a: as it came in");
   radiance.bypass = Bypass{"radiance", {}};
   type.ports = {image_input("radiance", Format::rgba32_sfloat, "what to filter"),
-                surface_input("surface", "G-buffer at the size of `radiance`"), radiance};
+                same_size_as("radiance", surface_input("surface", "G-buffer of the same pixels")), radiance};
   type.params = {
       {"axis",
        ParamType::choice,

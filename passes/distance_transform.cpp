@@ -33,12 +33,9 @@ PassType make_distance_transform() {
   type.name = "distance_transform";
   type.doc =
       "Chessboard distance to the nearest occupied voxel, exact up to `radius` (the paper's partial distance "
-      "transform, "
-      "section 2.1). Separable: along each axis d' = min over k of max(|k|, d); 0 in an occupied voxel, radius + 1 "
-      "where "
-      "none lies within the radius. Outside the grid is empty. Bypassed, every voxel says 1, so that a march takes "
-      "unit "
-      "steps.";
+      "transform, section 2.1). Separable: along each axis d' = min over k of max(|k|, d); 0 in an occupied voxel, "
+      "radius + 1 where none lies within the radius. Outside the grid is empty. Bypassed, every voxel says 1, so "
+      "that a march takes unit steps.";
   Port distance = volume("distance", Direction::out, Access::compute_storage_write, "distance [voxels / 255]");
   distance.bypass = Bypass{"", {kDistanceOne, kDistanceOne, kDistanceOne, kDistanceOne}};
   type.ports = {voxels_input("voxels", "alpha of the albedo image is the occupancy"), distance,

@@ -50,9 +50,8 @@ PassType make_gather() {
   type.name = "gather";
   type.doc =
       "Rasterised G-buffer: the first surface through each pixel with its material (paper, section 2.1), because "
-      "voxels "
-      "are too coarse for the first hit. Alpha-masked texels are cut out; the back of a single-sided material is not "
-      "seen; a double-sided one is turned to the viewer.";
+      "voxels are too coarse for the first hit. Alpha-masked texels are cut out; the back of a single-sided material "
+      "is not seen; a double-sided one is turned to the viewer.";
   type.ports = {surface_output(), depth_scratch()};
   type.reads = FrameState::camera | FrameState::static_geometry | FrameState::dynamic_geometry | FrameState::materials;
   type.record = record;

@@ -14,7 +14,7 @@ PassType make_modulate() {
                                     "rgb: radiance towards the viewer [W m^-2 sr^-1]; a: 1 on a surface, else 0");
   radiance.bypass = Bypass{"radiance", {}};
   type.ports = {image_input("radiance", Format::rgba32_sfloat, "radiance divided by the modulation colour"),
-                surface_input("surface", "G-buffer at the size of `radiance`"), radiance};
+                same_size_as("radiance", surface_input("surface", "G-buffer of the same pixels")), radiance};
   type.reads = FrameState::camera | FrameState::lights;
   type.record = [](PassContext& context) {
     context.dispatch({"modulate.comp", context.output_extent("radiance"), {}});

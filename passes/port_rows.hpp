@@ -48,6 +48,13 @@ inline Port voxels_input(std::string name, std::string doc) {
   return port;
 }
 
+/// The same port, for what must be as large as the input `like`.
+inline Port same_size_as(std::string like, Port port) {
+  port.extent = ExtentRule::like;
+  port.like = std::move(like);
+  return port;
+}
+
 /// A 2D output as large as the input `like`.
 inline Port image_output_like(std::string name, Format format, std::string like, std::string doc) {
   Port port;

@@ -8,8 +8,8 @@ PassType make_resample_surface() {
   PassType type;
   type.name = "resample_surface";
   type.doc =
-      "Brings the G-buffer to trace size by taking the texel under each trace pixel's centre; nothing is averaged, so "
-      "every value belongs to one surface. Bypassed, tracing happens at the size of the input.";
+      "Brings the G-buffer to trace size by taking the texel under each trace pixel's centre; nothing is averaged, "
+      "so every value belongs to one surface. Bypassed, tracing happens at the size of the input.";
   Port resampled = surface_input("surface", "the same at trace size");
   resampled.direction = Direction::out;
   resampled.extent = ExtentRule::trace;

@@ -9,19 +9,20 @@ PassType make_temporal_accumulate() {
   type.name = "temporal_accumulate";
   type.doc =
       "Weighted mean of the traced frames of the recent past. Each surface point is projected into every earlier "
-      "frame; "
-      "frames in which it was hidden are left out; the age weight follows a Hermite curve that is flat for a "
-      "Lambertian "
-      "surface and keeps only the current frame for a mirror (paper, section 2.3).";
+      "frame; frames in which it was hidden are left out; the age weight follows a Hermite curve that is flat for a "
+      "Lambertian surface and keeps only the current frame for a mirror (paper, section 2.3).";
   Port radiance = image_output_like("radiance", Format::rgba32_sfloat, "radiance",
                                     "rgb: accumulated radiance; a: sum of the weights (1 to `frames`)");
   radiance.bypass = Bypass{"radiance", {}};
   type.ports = {
       image_input("radiance", Format::rgba32_sfloat, "the current frame"),
-      surface_input("surface", "G-buffer of the current frame, at the size of `radiance`"),
-      history_input("trail", Format::rgba32_sfloat, "`radiance` of earlier frames, raw (not accumulated)"),
-      history_input("trail_position", Format::rgba32_sfloat, "`surface.position` of the same frames"),
-      history_input("trail_normal", Format::rgba16_sfloat, "`surface.normal` of the same frames"),
+      same_size_as("radiance", surface_input("surface", "G-buffer of the current frame")),
+      same_size_as("radiance", history_input("trail", Format::rgba32_sfloat,
+                                             "`radiance` of earlier frames, raw (not accumulated)")),
+      same_size_as("radiance",
+                   history_input("trail_position", Format::rgba32_sfloat, "`surface.position` of the same frames")),
+      same_size_as("radiance",
+                   history_input("trail_normal", Format::rgba16_sfloat, "`surface.normal` of the same frames")),
       radiance,
   };
   type.params = {

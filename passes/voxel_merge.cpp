@@ -7,15 +7,15 @@ PassType make_voxel_merge() {
   PassType type;
   type.name = "voxel_merge";
   type.doc =
-      "Combines static voxels with re-voxelized dynamic ones (paper, section 2.1): where both are occupied, `priority` "
-      "decides. Plain stores, no compare-and-swap.";
+      "Combines static voxels with re-voxelized dynamic ones (paper, section 2.1): where both are occupied, "
+      "`priority` decides. Plain stores, no compare-and-swap.";
   Port voxels = image_output_like("voxels", Format::rgba8_unorm, "static", "both");
   voxels.bundle = "voxels";
   voxels.parts = voxel_parts();
   voxels.dimension = Dimension::d3;
   voxels.bypass = Bypass{"static", {}};
   type.ports = {voxels_input("static", "voxels of what never moves"),
-                voxels_input("dynamic", "voxels of what moves, of the same grid"), voxels};
+                same_size_as("static", voxels_input("dynamic", "voxels of what moves")), voxels};
   type.params = {{"priority",
                   ParamType::choice,
                   std::string("dynamic"),

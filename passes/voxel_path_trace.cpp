@@ -8,18 +8,20 @@ PassType make_voxel_path_trace() {
   PassType type;
   type.name = "voxel_path_trace";
   type.doc =
-      "Global illumination by paths that start at the G-buffer and go on through the voxel grid. Next event estimation "
-      "towards light hints, the sun and punctual lights, combined with Ward importance sampling by the balance "
-      "heuristic; rays are sphere-marched through the distance field (paper, section 2.2).";
+      "Global illumination by paths that start at the G-buffer and go on through the voxel grid. Next event "
+      "estimation towards light hints, the sun and punctual lights, combined with Ward importance sampling by the "
+      "balance heuristic; rays are sphere-marched through the distance field (paper, section 2.2).";
   Port radiance = image_output_like(
       "radiance", Format::rgba32_sfloat, "surface",
-      "rgb: radiance that the surface reflects to the viewer [W m^-2 sr^-1] divided by the modulation colour, without "
-      "the surface's own emission; a: 1, or 0 where there is no lit surface");
+      "rgb: radiance that the surface reflects to the viewer [W m^-2 sr^-1] divided by the modulation colour, "
+      "without the surface's own emission; a: 1, or 0 where there is no lit surface");
   radiance.bypass = Bypass{};
-  type.ports = {surface_input("surface", "first hits; one path tree starts at each pixel"),
-                voxels_input("voxels", "what the paths meet after the first hit"),
-                volume_input("distance", "chessboard distance to the nearest occupied voxel [voxels / 255], capped"),
-                radiance};
+  type.ports = {
+      surface_input("surface", "first hits; one path tree starts at each pixel"),
+      voxels_input("voxels", "what the paths meet after the first hit"),
+      same_size_as("voxels", volume_input("distance",
+                                          "chessboard distance to the nearest occupied voxel [voxels / 255], capped")),
+      radiance};
   type.params = {
       {"paths", ParamType::integer, int64_t{1}, 1, 256, {}, "", "paths per pixel and frame"},
       {"bounces",
@@ -38,8 +40,7 @@ PassType make_voxel_path_trace() {
        {},
        "",
        "a path that left a lobe of some Ward alpha sees later lobes at least as wide, up to this alpha (the base "
-       "counts "
-       "as 1); keeps reflections of the sun by glossy surfaces from becoming speckle on others; 0 turns it off"},
+       "counts as 1); keeps reflections of the sun by glossy surfaces from becoming speckle on others; 0 turns it off"},
   };
   type.reads = FrameState::camera | FrameState::seed | FrameState::lights;
   type.record = [](PassContext& context) {

@@ -76,9 +76,10 @@ PassType make_voxelize() {
   type.name = "voxelize";
   type.doc =
       "Voxelizes triangles into the three RGBA8 images of the paper (section 2.1). A voxel is occupied if a triangle "
-      "touches its closed box (supercover; triangle-box test of Schwarz and Seidel 2010). The triangle that is last in "
-      "draw order owns the voxel, by one atomic maximum, and all attributes come from its point nearest to the voxel's "
-      "centre, so a voxel is consistent and every run gives the same bits. Normals are those of the front face.";
+      "touches its closed box (supercover; triangle-box test of Schwarz and Seidel 2010). The triangle that is last "
+      "in draw order owns the voxel, by one atomic maximum, and all attributes come from its point nearest to the "
+      "voxel's centre, so a voxel is consistent and every run gives the same bits. Normals are those of the front "
+      "face.";
   type.ports = {voxels_output(), owner_scratch()};
   type.params = {
       {"geometry", ParamType::choice, std::string("all"), {}, {}, {"static", "dynamic", "all"}, "", "which triangles"},

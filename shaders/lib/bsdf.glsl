@@ -10,6 +10,7 @@
 #ifndef LIGHTLOOM_LIB_BSDF
 #define LIGHTLOOM_LIB_BSDF
 
+#include "lib/color.glsl"
 #include "lib/features.glsl"
 #include "lib/ward.glsl"
 
@@ -28,8 +29,6 @@ struct BsdfSample {
   bool mirror;   // the direction has no density: no other strategy could have found it
   float roughness;   // of the lobe that was picked: the larger alpha, 1 for the base
 };
-
-float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
 
 float schlick(float f0, float f90, float cosine) {
   float m = clamp(1.0 - cosine, 0.0, 1.0);

@@ -2,6 +2,7 @@
 #ifndef LIGHTLOOM_LIB_MATERIAL
 #define LIGHTLOOM_LIB_MATERIAL
 
+#include "lib/color.glsl"
 #include "lib/textures.glsl"
 
 struct MaterialSample {
@@ -19,8 +20,6 @@ struct MaterialSample {
 
 // Below, the lobe's peak 1/(4 pi alpha^2) leaves half floats and the lobe is narrower than a normal is known.
 const float kWardAlphaMin = 1e-3;
-
-float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
 
 // Opacity alone: what an alpha test needs.
 float material_alpha(uint id, TexturePoint point, vec4 vertex_color) {
