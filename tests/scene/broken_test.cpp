@@ -293,7 +293,7 @@ TEST(Broken, TruncatedFilesAreErrorsOrValid) {
   for (const auto& [name, content] :
        {std::pair<std::string, std::string>{"t.gltf", builder.gltf()}, {"t.glb", builder.glb()}}) {
     ASSERT_EQ(verdict(folder.write(name, content)), "");
-    for (size_t size = 0; size < content.size(); ++size) {
+    for (size_t size = 0; size < content.size(); size += size < 64 ? 1 : 5) {
       EXPECT_NE(verdict(folder.write(name, content.substr(0, size))), "") << name << " cut after " << size;
     }
   }
@@ -323,7 +323,7 @@ TEST(Broken, RandomDamageNeverCrashes) {
   builder.animation(builder.node({{"mesh", builder.quad()}}), "rotation", {0, 1}, {0, 0, 0, 1, 0, 1, 0, 0});
   const std::string glb = builder.glb(), text = rich_document().dump();
   int loaded = 0, refused = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 600; ++i) {
     const bool binary = i % 2 == 0;
     std::string content = binary ? glb : text;
     const int changes = 1 + static_cast<int>(random() % 3);
@@ -334,7 +334,7 @@ TEST(Broken, RandomDamageNeverCrashes) {
     (verdict(folder.write(binary ? "d.glb" : "d.gltf", content)).empty() ? loaded : refused) += 1;
   }
   std::cout << "random damage: " << loaded << " loaded, " << refused << " refused\n";
-  EXPECT_GT(refused, 300);
+  EXPECT_GT(refused, 200);
 }
 
 /// What the reference validator found in a file: the codes of its errors, by the report beside it.
