@@ -150,16 +150,16 @@ void GltfBuilder::add_animation(const std::string& name, std::span<const double>
 }
 
 void GltfBuilder::write(const std::filesystem::path& folder, const std::string& name) const {
-  constexpr std::array<int, kStreamCount> stride{0, 12, 12, 16, 8, 0};
-  constexpr std::array<int, kStreamCount> target{kElementArrayBuffer, kArrayBuffer, kArrayBuffer,
-                                                 kArrayBuffer,        kArrayBuffer, 0};
+  constexpr std::array<int, kStreamCount> kStride{0, 12, 12, 16, 8, 0};
+  constexpr std::array<int, kStreamCount> kTarget{kElementArrayBuffer, kArrayBuffer, kArrayBuffer,
+                                                  kArrayBuffer,        kArrayBuffer, 0};
   std::vector<uint8_t> bytes;
   Json views = Json::array();
   for (size_t stream = 0; stream < kStreamCount; ++stream) {
     while (bytes.size() % 4 != 0) bytes.push_back(0);
     Json view{{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", streams_[stream].size()}};
-    if (stride[stream] != 0) view["byteStride"] = stride[stream];
-    if (target[stream] != 0) view["target"] = target[stream];
+    if (kStride[stream] != 0) view["byteStride"] = kStride[stream];
+    if (kTarget[stream] != 0) view["target"] = kTarget[stream];
     views.push_back(std::move(view));
     bytes.insert(bytes.end(), streams_[stream].begin(), streams_[stream].end());
   }
