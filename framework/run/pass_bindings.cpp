@@ -54,10 +54,10 @@ gpu::ResourceMap port_resources(const GraphPass& pass, const ValueImages& images
 }
 
 std::vector<ShaderValue> known_shader_values(const GraphPass& pass, const ValueImages& images, uint64_t frame_count,
-                                             const std::vector<std::pair<std::string, bool>>& features) {
+                                             const std::vector<ShaderValue>& scene_values) {
   std::vector<ShaderValue> values;
   for (const ParamSet::Entry& entry : pass.params.entries()) values.push_back(shader_value(pass.params, entry));
-  for (const auto& [name, present] : features) values.push_back({"has_" + name, present});
+  values.insert(values.end(), scene_values.begin(), scene_values.end());
   for (const Use& use : pass.inputs) {
     if (!use.array) continue;
     values.push_back({use.port + "_count", use.last_age - use.first_age + 1});

@@ -16,11 +16,11 @@ namespace lightloom::run {
 /// The images of a pass's ports by shader name (rules in port.hpp), as they are in frame number `frame_count`.
 [[nodiscard]] gpu::ResourceMap port_resources(const GraphPass& pass, const ValueImages& images, uint64_t frame_count);
 
-/// The values that a shader may name without the pass giving them (pass_context.hpp): params, `has_<feature>`, and for
-/// history ranges and optional inputs what the linker found.
+/// The values that a shader may name without the pass giving them (pass_context.hpp): params, what the scene offers,
+/// and for history ranges and optional inputs what the linker found.
 [[nodiscard]] std::vector<ShaderValue> known_shader_values(const GraphPass& pass, const ValueImages& images,
                                                            uint64_t frame_count,
-                                                           const std::vector<std::pair<std::string, bool>>& features);
+                                                           const std::vector<ShaderValue>& scene_values);
 
 /// Those of `values` that are specialization constants of the shader.
 [[nodiscard]] std::vector<ShaderValue> specialization_values(const gpu::Reflection& reflection,

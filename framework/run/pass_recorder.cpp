@@ -37,7 +37,7 @@ PassRecorder::PassRecorder(const RecordingEnvironment& environment, const Graph&
       pass_(pass),
       resources_(port_resources(pass, *environment.images, environment.frame_count)),
       known_values_(
-          known_shader_values(pass, *environment.images, environment.frame_count, environment.scene->features)) {}
+          known_shader_values(pass, *environment.images, environment.frame_count, environment.scene->values)) {}
 
 Extent3 PassRecorder::input_extent(std::string_view port) const {
   for (const Use& use : pass_.inputs)

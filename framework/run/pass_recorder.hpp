@@ -30,8 +30,8 @@ class ShaderLibrary {
 
 /// What scene and frame offer to shaders.
 struct SceneBindings {
-  gpu::ResourceMap resources;  ///< by the names of shaders/lib/scene.glsl and textures.glsl
-  std::vector<std::pair<std::string, bool>> features;
+  gpu::ResourceMap resources;       ///< by the names of shaders/lib/scene.glsl and textures.glsl
+  std::vector<ShaderValue> values;  ///< `has_<feature>`, and which textures there are (shaders/lib/features.glsl)
   TriangleRange static_triangles;
   TriangleRange dynamic_triangles;
 };

@@ -43,6 +43,20 @@ gpu::Buffer uniform_buffer(gpu::Device& device, VkDeviceSize size, const char* n
   return {device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryKind::device, name};
 }
 
+/// Which textures the materials have, as shaders/lib/features.glsl names them.
+std::vector<ShaderValue> texture_values(const std::vector<scene::Material>& materials, uint32_t page_count) {
+  const auto any = [&](auto member) {
+    return std::any_of(materials.begin(), materials.end(),
+                       [&](const scene::Material& material) { return (material.*member).image >= 0; });
+  };
+  return {{"uses_metallic_roughness_texture", any(&scene::Material::metallic_roughness_texture)},
+          {"uses_emissive_texture", any(&scene::Material::emissive_texture)},
+          {"uses_anisotropy_texture", any(&scene::Material::anisotropy_texture)},
+          {"uses_specular_texture",
+           any(&scene::Material::specular_texture) || any(&scene::Material::specular_color_texture)},
+          {"texture_page_count", page_count}};
+}
+
 gpu::Image upload_page(gpu::Device& device, const scene::TexturePage& page) {
   gpu::Image image(device, {.format = page.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
                             .dimension = Dimension::d2,
@@ -107,6 +121,7 @@ void SceneResources::upload_materials(gpu::Device& device) {
   const scene::TexturePages pages = scene::build_texture_pages(scene_);
   warnings_ = pages.warnings;
   for (const scene::TexturePage& page : pages.pages) texture_pages_.push_back(upload_page(device, page));
+  used_page_count_ = static_cast<uint32_t>(texture_pages_.size());
   const scene::TexturePage white{.width = 1, .height = 1, .srgb = false, .images = {0}, .mips = {{255, 255, 255, 255}}};
   while (texture_pages_.size() < scene::kTexturePageCount) texture_pages_.push_back(upload_page(device, white));
   const std::vector<scene::GpuMaterial> packed = scene::pack_materials(scene_, pages, emission_);
@@ -148,7 +163,9 @@ void SceneResources::bind() {
   resources.emplace("MaterialBlock", gpu::resource(materials_.front()));
   resources.emplace("texture_pages", pages);
   resources.emplace("environment_map", gpu::resource(environment_.front(), samplers_.equirectangular()));
-  bindings_.features = scene_.features.named();
+  for (const auto& [name, present] : scene_.features.named()) bindings_.values.push_back({"has_" + name, present});
+  const std::vector<ShaderValue> textures = texture_values(scene_.materials, used_page_count_);
+  bindings_.values.insert(bindings_.values.end(), textures.begin(), textures.end());
   bindings_.static_triangles = range(0, scene_.static_triangle_count);
   bindings_.dynamic_triangles = range(scene_.static_triangle_count, scene_.triangles.size());
 }

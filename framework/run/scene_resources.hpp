@@ -56,9 +56,10 @@ class SceneResources {
   gpu::Buffer triangles_;
   gpu::Buffer frame_block_;
   gpu::Buffer light_block_;
-  gpu::Buffer staging_;                 ///< FrameBlock, LightBlock, then the dynamic vertices
-  std::vector<gpu::Buffer> materials_;  ///< one
-  std::vector<gpu::Image> texture_pages_;
+  gpu::Buffer staging_;                    ///< FrameBlock, LightBlock, then the dynamic vertices
+  std::vector<gpu::Buffer> materials_;     ///< one
+  std::vector<gpu::Image> texture_pages_;  ///< as many as shaders declare; white beyond those in use
+  uint32_t used_page_count_ = 0;
   std::vector<gpu::Image> environment_;  ///< one
   SceneBindings bindings_;
 };

@@ -52,10 +52,10 @@ const uint kAlphaOpaque = 0u;
 const uint kAlphaMask = 1u;      // BLEND is treated as MASK with cutoff 0.5
 struct Material {
   vec4 base_color;         // linear
-  vec4 emission;           // rgb: factor * strength [W m^-2 sr^-1]; w: luminance threshold below which a texel does not emit
+  vec4 emission;           // rgb: factor * strength [W m^-2 sr^-1]; w: luminance below which a texel does not emit
   vec4 surface;            // metallic, perceptual roughness, specular factor, normal scale
   vec4 specular;           // rgb: specular colour factor; w: anisotropy strength
-  vec4 shape;              // cos, sin of the anisotropy rotation; alpha cutoff; dielectric F0 at normal incidence from the index of refraction (0.04 at 1.5)
+  vec4 shape;              // cos, sin of the anisotropy rotation; alpha cutoff; dielectric F0 (0.04 at an index of 1.5)
   uvec4 flags;             // x: alpha mode, y: double sided, z: index into the emission table, w: unlit
   TextureSlot base_color_texture;          // sRGB page
   TextureSlot metallic_roughness_texture;  // g: roughness, b: metallic
@@ -68,7 +68,7 @@ struct Material {
 layout(std430) readonly buffer MaterialBlock { Material materials[]; };
 
 struct Emission {
-  vec4 radiance;           // rgb [W m^-2 sr^-1]; w: area density with which the host draws hints on such a surface [m^-2]
+  vec4 radiance;           // rgb [W m^-2 sr^-1]; w: density of the hints drawn on such a surface [m^-2]
   vec4 sides;              // x: 1 if both sides emit, else 0
 };
 struct Hint {

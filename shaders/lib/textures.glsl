@@ -21,38 +21,35 @@ struct TexturePoint {
   vec4 dy;   // … and in the other
 };
 
+// Pages beyond the scene's are cut off by a constant: a CPU device runs every case of a switch for every texel.
 vec2 page_size(uint page) {
-  switch (page) {
-    case 0u: return vec2(textureSize(texture_pages[0], 0).xy);
-    case 1u: return vec2(textureSize(texture_pages[1], 0).xy);
-    case 2u: return vec2(textureSize(texture_pages[2], 0).xy);
-    case 3u: return vec2(textureSize(texture_pages[3], 0).xy);
-    case 4u: return vec2(textureSize(texture_pages[4], 0).xy);
-    case 5u: return vec2(textureSize(texture_pages[5], 0).xy);
-    case 6u: return vec2(textureSize(texture_pages[6], 0).xy);
-    case 7u: return vec2(textureSize(texture_pages[7], 0).xy);
-    case 8u: return vec2(textureSize(texture_pages[8], 0).xy);
-    case 9u: return vec2(textureSize(texture_pages[9], 0).xy);
-    case 10u: return vec2(textureSize(texture_pages[10], 0).xy);
-    default: return vec2(textureSize(texture_pages[11], 0).xy);
-  }
+  if (texture_page_count > 1u && page == 1u) return vec2(textureSize(texture_pages[1], 0).xy);
+  if (texture_page_count > 2u && page == 2u) return vec2(textureSize(texture_pages[2], 0).xy);
+  if (texture_page_count > 3u && page == 3u) return vec2(textureSize(texture_pages[3], 0).xy);
+  if (texture_page_count > 4u && page == 4u) return vec2(textureSize(texture_pages[4], 0).xy);
+  if (texture_page_count > 5u && page == 5u) return vec2(textureSize(texture_pages[5], 0).xy);
+  if (texture_page_count > 6u && page == 6u) return vec2(textureSize(texture_pages[6], 0).xy);
+  if (texture_page_count > 7u && page == 7u) return vec2(textureSize(texture_pages[7], 0).xy);
+  if (texture_page_count > 8u && page == 8u) return vec2(textureSize(texture_pages[8], 0).xy);
+  if (texture_page_count > 9u && page == 9u) return vec2(textureSize(texture_pages[9], 0).xy);
+  if (texture_page_count > 10u && page == 10u) return vec2(textureSize(texture_pages[10], 0).xy);
+  if (texture_page_count > 11u && page == 11u) return vec2(textureSize(texture_pages[11], 0).xy);
+  return vec2(textureSize(texture_pages[0], 0).xy);
 }
 
 vec4 page_texel(uint page, vec3 where, float lod) {
-  switch (page) {
-    case 0u: return textureLod(texture_pages[0], where, lod);
-    case 1u: return textureLod(texture_pages[1], where, lod);
-    case 2u: return textureLod(texture_pages[2], where, lod);
-    case 3u: return textureLod(texture_pages[3], where, lod);
-    case 4u: return textureLod(texture_pages[4], where, lod);
-    case 5u: return textureLod(texture_pages[5], where, lod);
-    case 6u: return textureLod(texture_pages[6], where, lod);
-    case 7u: return textureLod(texture_pages[7], where, lod);
-    case 8u: return textureLod(texture_pages[8], where, lod);
-    case 9u: return textureLod(texture_pages[9], where, lod);
-    case 10u: return textureLod(texture_pages[10], where, lod);
-    default: return textureLod(texture_pages[11], where, lod);
-  }
+  if (texture_page_count > 1u && page == 1u) return textureLod(texture_pages[1], where, lod);
+  if (texture_page_count > 2u && page == 2u) return textureLod(texture_pages[2], where, lod);
+  if (texture_page_count > 3u && page == 3u) return textureLod(texture_pages[3], where, lod);
+  if (texture_page_count > 4u && page == 4u) return textureLod(texture_pages[4], where, lod);
+  if (texture_page_count > 5u && page == 5u) return textureLod(texture_pages[5], where, lod);
+  if (texture_page_count > 6u && page == 6u) return textureLod(texture_pages[6], where, lod);
+  if (texture_page_count > 7u && page == 7u) return textureLod(texture_pages[7], where, lod);
+  if (texture_page_count > 8u && page == 8u) return textureLod(texture_pages[8], where, lod);
+  if (texture_page_count > 9u && page == 9u) return textureLod(texture_pages[9], where, lod);
+  if (texture_page_count > 10u && page == 10u) return textureLod(texture_pages[10], where, lod);
+  if (texture_page_count > 11u && page == 11u) return textureLod(texture_pages[11], where, lod);
+  return textureLod(texture_pages[0], where, lod);
 }
 
 // Brings a coordinate to [0,1] by its wrap mode; where it must not blend with the opposite border, half a texel of the
@@ -71,9 +68,9 @@ float texture_lod(vec2 dx, vec2 dy, vec2 size) {
   return clamp(0.5 * log2(max(squared, 1.0)), 0.0, 16.0);
 }
 
-// Linear value of a material's texture, or `missing` where it has none.
-vec4 sample_texture(TextureSlot slot, TexturePoint point, vec4 missing) {
-  if (!has_textured || slot.page == kNoTexture) return missing;
+// Linear value of a material's texture, or `missing` where it has none. `used`: whether any material has one.
+vec4 sample_texture(bool used, TextureSlot slot, TexturePoint point, vec4 missing) {
+  if (!has_textured || !used || slot.page == kNoTexture) return missing;
   mat2 transform = mat2(slot.linear_transform.xy, slot.linear_transform.zw);
   bool second = slot.texcoord == 1u;
   vec2 uv = transform * (second ? point.uv.zw : point.uv.xy) + slot.offset;
