@@ -12,7 +12,7 @@ PassType make_upsample() {
       "the inside out for the one whose position and normal are most alike (paper, section 2.5).";
   Port radiance = image_output_like("radiance", Format::rgba32_sfloat, "surface",
                                     "rgb: radiance of the best candidate; a: its alpha; 0 for the background");
-  radiance.bypass = Bypass{};
+  radiance.bypass = Bypass{"radiance", {}};  // fits where the trace has the size of the view
   type.ports = {image_input("radiance", Format::rgba32_sfloat, "traced radiance"),
                 same_size_as("radiance", surface_input("trace_surface", "G-buffer of the traced pixels")),
                 surface_input("surface", "G-buffer at the size of the view"), radiance};

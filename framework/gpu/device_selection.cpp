@@ -105,7 +105,7 @@ std::string lower(std::string text) {
 std::string list_text(std::span<const DeviceSummary> devices) {
   std::string text;
   for (size_t i = 0; i < devices.size(); ++i) {
-    text += (i == 0 ? "" : "; ") + std::to_string(i) + ": " + devices[i].info.name;
+    text += (i == 0 ? "[" : "; [") + std::to_string(i) + "] " + devices[i].info.name;
     if (!devices[i].usable) text += " (not usable, lacks " + devices[i].missing + ")";
   }
   return text;
@@ -125,7 +125,7 @@ size_t choose_named(std::span<const DeviceSummary> devices, const std::string& w
   if (match != nullptr) {
     throw Error(ExitCode::no_device, "device '" + match->info.name + "' cannot be used, it lacks " + match->missing);
   }
-  throw Error(ExitCode::no_device, "no device fits '" + wanted + "'; there are " + list_text(devices),
+  throw Error(ExitCode::no_device, "no device fits '" + wanted + "'; there is " + list_text(devices),
               "give a part of a name, or an index, by --device or LIGHTLOOM_DEVICE");
 }
 
@@ -172,7 +172,7 @@ size_t choose_device(std::span<const DeviceSummary> devices, const std::string& 
     return std::pair(!a.usable, a.info.type) < std::pair(!b.usable, b.info.type);
   });
   if (!best->usable) {
-    throw Error(ExitCode::no_device, "no Vulkan device can be used; there are " + list_text(devices), hint);
+    throw Error(ExitCode::no_device, "no Vulkan device can be used; there is " + list_text(devices), hint);
   }
   return static_cast<size_t>(best - devices.begin());
 }

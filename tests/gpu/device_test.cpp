@@ -76,8 +76,8 @@ TEST(DeviceChoice, UnknownNameListsWhatIsThere) {
   const Error error = error_of([] { static_cast<void>(choose_device(example_devices(), "GeForce")); });
   EXPECT_EQ(error.code(), ExitCode::no_device);
   EXPECT_THAT(error.what(), HasSubstr("no device fits 'GeForce'"));
-  EXPECT_THAT(error.what(), HasSubstr("1: Iris Xe"));
-  EXPECT_THAT(error.what(), HasSubstr("2: Old Card (not usable, lacks Vulkan 1.3 (it has 1.1.0))"));
+  EXPECT_THAT(error.what(), HasSubstr("[1] Iris Xe"));
+  EXPECT_THAT(error.what(), HasSubstr("[2] Old Card (not usable, lacks Vulkan 1.3 (it has 1.1.0))"));
 }
 
 TEST(DeviceChoice, IndexOutOfRangeAndUnusableNameAreErrors) {
