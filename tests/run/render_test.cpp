@@ -211,15 +211,15 @@ TEST_F(Render, TheAnimatedGemMoves) {
 
 TEST_F(Render, AGraphThatDoesNotLinkLeavesNothingBehind) {
   RenderRequest impossible = request("impossible", 0);
-  impossible.link.disables = {"gather", "upsample"};
+  impossible.link.disables = {"gather", "tonemap"};
   Diagnostics diagnostics;
   RenderSummary summary;
   EXPECT_FALSE(render(impossible, registry_, {}, diagnostics, summary));
   EXPECT_TRUE(diagnostics.has_errors());
   std::string text;
   for (const Diagnostic& diagnostic : diagnostics.sorted()) text += format_diagnostic(diagnostic) + "\n";
-  EXPECT_NE(text.find("gather"), std::string::npos) << text;
-  EXPECT_NE(text.find("upsample"), std::string::npos) << "both in one go:\n" << text;
+  EXPECT_NE(text.find("pass 'gather' is off"), std::string::npos) << text;
+  EXPECT_NE(text.find("pass 'tonemap' is off"), std::string::npos) << "both in one go:\n" << text;
   EXPECT_FALSE(fs::exists(folder_ / "impossible"));
 }
 
