@@ -1,7 +1,6 @@
 #include "framework/run/pass_recorder.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "framework/base/error.hpp"
 #include "framework/gpu/rendering.hpp"
@@ -24,12 +23,6 @@ uint32_t groups(uint32_t threads, uint32_t local_size) {
 }
 
 }  // namespace
-
-const gpu::ShaderProgram& ShaderLibrary::program(const std::vector<std::string>& files) {
-  const auto found = programs_.find(files);
-  if (found != programs_.end()) return found->second;
-  return programs_.emplace(files, gpu::make_program(compiler_.compile_files(files))).first->second;
-}
 
 PassRecorder::PassRecorder(const RecordingEnvironment& environment, const Graph& graph, const GraphPass& pass)
     : environment_(environment),

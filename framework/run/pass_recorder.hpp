@@ -1,50 +1,18 @@
 #pragma once
 
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "framework/gpu/descriptors.hpp"
 #include "framework/gpu/pipeline.hpp"
-#include "framework/gpu/shader_compiler.hpp"
 #include "framework/graph/graph.hpp"
 #include "framework/graph/pass_context.hpp"
+#include "framework/run/placeholders.hpp"
+#include "framework/run/scene_bindings.hpp"
+#include "framework/run/shader_library.hpp"
 #include "framework/run/value_images.hpp"
 
 namespace lightloom::run {
-
-/// Compiled shader programs by file names, and their pipelines.
-class ShaderLibrary {
- public:
-  ShaderLibrary(const gpu::Device& device, gpu::ShaderCompilerOptions options)
-      : compiler_(std::move(options)), pipelines_(device) {}
-  const gpu::ShaderProgram& program(const std::vector<std::string>& files);
-  [[nodiscard]] gpu::PipelineCache& pipelines() { return pipelines_; }
-
- private:
-  gpu::ShaderCompiler compiler_;
-  gpu::PipelineCache pipelines_;
-  std::map<std::vector<std::string>, gpu::ShaderProgram> programs_;
-};
-
-/// What scene and frame offer to shaders.
-struct SceneBindings {
-  gpu::ResourceMap resources;       ///< by the names of shaders/lib/scene.glsl and textures.glsl
-  std::vector<ShaderValue> values;  ///< `has_<feature>`, and which textures there are (shaders/lib/features.glsl)
-  TriangleRange static_triangles;
-  TriangleRange dynamic_triangles;
-};
-
-/// Stands in for an optional input that is not connected, by the shape and numeric class that the shader declares.
-class Placeholders {
- public:
-  explicit Placeholders(gpu::Device& device);
-  [[nodiscard]] gpu::ImageView view(const gpu::Binding& binding) const;
-
- private:
-  std::vector<gpu::Image> images_;  ///< 2D and 3D, floating and unsigned
-};
 
 /// All that recording a pass needs and that is the same for every pass of a frame.
 struct RecordingEnvironment {

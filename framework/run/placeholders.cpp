@@ -1,6 +1,8 @@
+#include "framework/run/placeholders.hpp"
+
 #include "framework/base/error.hpp"
 #include "framework/gpu/transfer.hpp"
-#include "framework/run/pass_recorder.hpp"
+#include "framework/run/value_images.hpp"
 
 namespace lightloom::run {
 

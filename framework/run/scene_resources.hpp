@@ -7,7 +7,7 @@
 #include "framework/gpu/image.hpp"
 #include "framework/gpu/samplers.hpp"
 #include "framework/run/frame_state.hpp"
-#include "framework/run/pass_recorder.hpp"
+#include "framework/run/scene_bindings.hpp"
 #include "framework/scene/lights.hpp"
 #include "framework/scene/scene.hpp"
 
