@@ -1,31 +1,18 @@
 #include "passes/gather.hpp"
 
-#include "passes/bundles.hpp"
+#include "passes/port_rows.hpp"
 
 namespace lightloom::passes {
 namespace {
 
 Port surface_output() {
-  Port port;
-  port.name = "surface";
-  port.direction = Direction::out;
-  port.bundle = "surface";
-  port.parts = surface_parts();
-  port.extent = ExtentRule::view;
-  port.access = Access::color_attachment_write;
-  port.doc = "the G-buffer; 0 throughout where nothing is seen";
-  return port;
+  return bundle_output("surface", surface_parts(), ExtentRule::view, Access::color_attachment_write,
+                       "the G-buffer; 0 throughout where nothing is seen");
 }
 
 Port depth_scratch() {
-  Port port;
-  port.name = "depth";
-  port.direction = Direction::scratch;
-  port.parts = {{"", Format::d32_sfloat, "clip-space depth, 0 near to 1 far"}};
-  port.extent = ExtentRule::view;
-  port.access = Access::depth_attachment_write;
-  port.doc = "depth test";
-  return port;
+  return scratch_image("depth", {"", Format::d32_sfloat, "clip-space depth, 0 near to 1 far"}, ExtentRule::view,
+                       Access::depth_attachment_write, "depth test");
 }
 
 void record(PassContext& context) {

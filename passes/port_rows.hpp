@@ -2,6 +2,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "framework/graph/port.hpp"
 #include "passes/bundles.hpp"
@@ -64,6 +65,32 @@ inline Port image_output_like(std::string name, Format format, std::string like,
   port.extent = ExtentRule::like;
   port.like = std::move(like);
   port.access = Access::compute_storage_write;
+  port.doc = std::move(doc);
+  return port;
+}
+
+/// The images of a bundle, made together; the port has the bundle's name.
+inline Port bundle_output(std::string bundle, std::vector<PortPart> parts, ExtentRule extent, Access access,
+                          std::string doc) {
+  Port port;
+  port.name = bundle;
+  port.direction = Direction::out;
+  port.bundle = std::move(bundle);
+  port.parts = std::move(parts);
+  port.extent = extent;
+  port.access = access;
+  port.doc = std::move(doc);
+  return port;
+}
+
+/// One image that a pass needs for itself.
+inline Port scratch_image(std::string name, PortPart image, ExtentRule extent, Access access, std::string doc) {
+  Port port;
+  port.name = std::move(name);
+  port.direction = Direction::scratch;
+  port.parts = {std::move(image)};
+  port.extent = extent;
+  port.access = access;
   port.doc = std::move(doc);
   return port;
 }

@@ -12,28 +12,17 @@ constexpr uint32_t kTrianglesPerDispatch = 65535 * 64;
 constexpr uint32_t kVoxelsPerResolve = 16;  // along z, by one invocation; as in shaders/voxelize_resolve.comp
 
 Port voxels_output() {
-  Port port;
-  port.name = "voxels";
-  port.direction = Direction::out;
-  port.bundle = "voxels";
-  port.parts = voxel_parts();
+  Port port = bundle_output("voxels", voxel_parts(), ExtentRule::grid, Access::compute_storage_write,
+                            "the grid; empty voxels are 0 throughout");
   port.dimension = Dimension::d3;
-  port.extent = ExtentRule::grid;
-  port.access = Access::compute_storage_write;
   port.bypass = Bypass{};
-  port.doc = "the grid; empty voxels are 0 throughout";
   return port;
 }
 
 Port owner_scratch() {
-  Port port;
-  port.name = "owner";
-  port.direction = Direction::scratch;
-  port.parts = {{"", Format::r32_uint, "index of the owning triangle + 1; 0: empty"}};
+  Port port = scratch_image("owner", {"", Format::r32_uint, "index of the owning triangle + 1; 0: empty"},
+                            ExtentRule::grid, Access::compute_storage_read_write, "who owns each voxel");
   port.dimension = Dimension::d3;
-  port.extent = ExtentRule::grid;
-  port.access = Access::compute_storage_read_write;
-  port.doc = "who owns each voxel";
   return port;
 }
 
