@@ -42,7 +42,7 @@ as_root() {
 }
 
 install_packages() {
-  local missing apt
+  local missing
   command -v dpkg-query >/dev/null ||
     give_up "this is no Debian system (there is no dpkg-query), so install what packages.txt lists by other means and build with CMake"
   mapfile -t missing < <(missing_packages)
@@ -51,9 +51,12 @@ install_packages() {
     give_up "these packages are missing and can be installed only as root or with sudo: ${missing[*]}"
   fi
   say "installing ${#missing[@]} Debian packages: ${missing[*]}"
-  apt=(env DEBIAN_FRONTEND=noninteractive apt-get --yes -o DPkg::Lock::Timeout=300)
-  as_root "${apt[@]}" update || give_up "the package lists cannot be updated, and these packages are missing: ${missing[*]}"
-  as_root "${apt[@]}" install --no-install-recommends "${missing[@]}" ||
+  # One call, so that sudo asks once. Lists that cannot be updated are reported only if the packages cannot be had either:
+  # another source in the system's list may be dead.
+  # shellcheck disable=SC2016 # expanded by the inner shell
+  as_root env DEBIAN_FRONTEND=noninteractive sh -c '
+    apt-get --yes -o DPkg::Lock::Timeout=300 update
+    exec apt-get --yes -o DPkg::Lock::Timeout=300 install --no-install-recommends "$@"' sh "${missing[@]}" ||
     give_up "these packages are missing and cannot be installed: ${missing[*]}"
 }
 
