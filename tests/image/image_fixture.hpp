@@ -1,12 +1,16 @@
 #pragma once
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
+#include <initializer_list>
 #include <random>
 #include <string>
 
+#include "framework/base/error.hpp"
 #include "framework/image/host_image.hpp"
 
 namespace lightloom::image {
@@ -41,6 +45,20 @@ inline HostImage random_image(Format format, Dimension dimension, Extent3 extent
   std::mt19937 generator(seed);
   for (std::byte& byte : image.texels) byte = static_cast<std::byte>(generator() & 0xFFu);
   return image;
+}
+
+/// Demands that `read` refuses each of these files of the folder as invalid input, and names it.
+template <class Read>
+void expect_refused(const TemporaryFolder& folder, std::initializer_list<const char*> names, Read read) {
+  for (const char* name : names) {
+    try {
+      (void)read(folder / name);
+      ADD_FAILURE() << name << " was read";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::invalid_input) << name;
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(name));
+    }
+  }
 }
 
 }  // namespace lightloom::image
