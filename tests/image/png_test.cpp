@@ -12,7 +12,6 @@
 namespace lightloom::image {
 namespace {
 
-
 TEST(Png, colours_survive_and_alpha_is_dropped) {
   const TemporaryFolder folder;
   const HostImage image = random_image(Format::rgba8_unorm, Dimension::d2, {33, 17, 1}, 1);
