@@ -25,8 +25,8 @@ void record(PassContext& context) {
                 .fragment_shader = "gather.frag",
                 .first_triangle = fixed.first,
                 .triangle_count = count,
-                .color_port = "surface",
                 .depth_port = "depth",
+                .area = {},
                 .values = {}});
 }
 

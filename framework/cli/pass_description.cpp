@@ -161,6 +161,8 @@ std::string extent_text(const Port& port) {
       return "trace size";
     case ExtentRule::grid:
       return "the voxel grid";
+    case ExtentRule::fixed:
+      return to_string(port.fixed_extent);
     case ExtentRule::like:
       break;
   }

@@ -29,6 +29,8 @@ VkFormat vulkan_format(Format format) {
       return VK_FORMAT_R32_UINT;
     case Format::rg32_uint:
       return VK_FORMAT_R32G32_UINT;
+    case Format::rgba32_uint:
+      return VK_FORMAT_R32G32B32A32_UINT;
     case Format::d32_sfloat:
       return VK_FORMAT_D32_SFLOAT;
   }
@@ -54,6 +56,7 @@ uint32_t texel_bytes(VkFormat format) {
     case VK_FORMAT_R32G32_UINT:
       return 8;
     case VK_FORMAT_R32G32B32A32_SFLOAT:
+    case VK_FORMAT_R32G32B32A32_UINT:
       return 16;
     default:
       throw Error(ExitCode::run_failed,
@@ -66,8 +69,9 @@ VkImageAspectFlags aspect_of(VkFormat format) {
 }
 
 NumericClass numeric_class(VkFormat format) {
-  return format == VK_FORMAT_R32_UINT || format == VK_FORMAT_R32G32_UINT ? NumericClass::unsigned_integer
-                                                                         : NumericClass::floating;
+  const bool is_unsigned =
+      format == VK_FORMAT_R32_UINT || format == VK_FORMAT_R32G32_UINT || format == VK_FORMAT_R32G32B32A32_UINT;
+  return is_unsigned ? NumericClass::unsigned_integer : NumericClass::floating;
 }
 
 }  // namespace lightloom::gpu

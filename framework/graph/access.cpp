@@ -17,7 +17,7 @@ constexpr VkPipelineStageFlags2 kCopy = VK_PIPELINE_STAGE_2_COPY_BIT;
 constexpr VkPipelineStageFlags2 kCopyOrClear = VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT;
 constexpr VkImageLayout kGeneral = VK_IMAGE_LAYOUT_GENERAL;
 
-constexpr std::array<AccessInfo, 12> kAccesses{{
+constexpr std::array<AccessInfo, 13> kAccesses{{
     {"none", VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED, false, false},
     {"compute_sampled_read", kCompute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, kGeneral, true, false},
     {"compute_storage_read", kCompute, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, kGeneral, true, false},
@@ -25,6 +25,8 @@ constexpr std::array<AccessInfo, 12> kAccesses{{
     {"compute_storage_read_write", kCompute, VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
      kGeneral, true, true},
     {"fragment_sampled_read", kFragment, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, kGeneral, true, false},
+    {"fragment_storage_read_write", kFragment,
+     VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, kGeneral, true, true},
     // Loading, blending and logic operations read the attachment; load operations count as writes or reads by their
     // kind.
     {"color_attachment_write", kColor, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,

@@ -16,6 +16,7 @@ enum class Access : uint8_t {
   compute_storage_write,
   compute_storage_read_write,  ///< atomics, read-modify-write
   fragment_sampled_read,
+  fragment_storage_read_write,  ///< atomics from a draw
   color_attachment_write,
   depth_attachment_write,
   transfer_read,   ///< copy to a read-back buffer

@@ -25,6 +25,7 @@ enum class ExtentRule : uint8_t {
   trace,  ///< the graph's `trace` size
   grid,   ///< the voxel grid of the scene at the node's integer param `resolution`
   like,   ///< same as the input port named in `Port::like`
+  fixed,  ///< `Port::fixed_extent`, whatever the scene and the graph
 };
 
 /// Concrete shape of one image.

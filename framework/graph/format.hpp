@@ -17,6 +17,7 @@ enum class Format : uint8_t {
   rgba32_sfloat,
   r32_uint,
   rg32_uint,
+  rgba32_uint,
   d32_sfloat,
 };
 

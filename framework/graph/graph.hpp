@@ -69,6 +69,10 @@ struct PassRemark {
   std::string reason;
 };
 
+struct Graph;
+/// Does a pass, an output of the graph or a capture read the value?
+[[nodiscard]] bool is_read(const Graph& graph, ValueId value);
+
 /// A linked and typed graph: plain data, swaps and bypasses applied, what nothing needs left out.
 struct Graph {
   std::string name;

@@ -60,6 +60,8 @@ std::optional<Extent3> ShapeResolver::by_rule(uint32_t index, const Port& port) 
       return grid(node);
     case ExtentRule::any:
       return std::nullopt;
+    case ExtentRule::fixed:
+      return port.fixed_extent;
     case ExtentRule::like:
       break;
   }
@@ -90,6 +92,7 @@ void ShapeResolver::check_inputs(uint32_t index, const std::vector<ResolvedInput
     } else {
       model = input.port->extent == ExtentRule::view    ? "the view's"
               : input.port->extent == ExtentRule::trace ? "the trace's"
+              : input.port->extent == ExtentRule::fixed ? "fixed"
                                                         : "the grid's";
     }
     report_.error("shape-mismatch", input.edge->where,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -24,7 +25,7 @@ struct ShaderValue {
 /// params (choice as index, boolean as bool/uint); scene features as `has_<feature>` and the rest of
 /// shaders/lib/features.glsl; for a history-range port P: `P_count` (number of ages bound), `P_first_age`, `P_ring`
 /// (layers), `P_newest_layer` (layer of age 0), so that age a lies in layer (P_newest_layer + P_ring - a) % P_ring; for
-/// an optional input P: `P_bound` (bool). A name that nothing provides is an error.
+/// an optional input P: `P_bound` (bool); for an output P: `P_wanted` (bool). A name that nothing provides is an error.
 struct Dispatch {
   std::string shader;  ///< file under shaders/, e.g. "box_blur.comp"
   Extent3 threads;
@@ -37,14 +38,23 @@ struct Draw {
   std::string fragment_shader;
   uint32_t first_triangle = 0;
   uint32_t triangle_count = 0;
-  std::string color_port;  ///< output port whose parts are the attachments; fragment outputs `out_<port>_<part>`
-  std::string depth_port;  ///< scratch port, d32_sfloat; cleared to 1, less-or-equal test
+  /// Fragment outputs are named `out_<port>_<part>` after the output port whose parts are the attachments. A fragment
+  /// shader without outputs only stores to images.
+  std::string depth_port;  ///< scratch port, d32_sfloat; cleared to 1, less-or-equal test; empty: no depth test
+  Extent3 area;            ///< viewport [pixels] without a depth port; else the depth port's extent is taken
   std::vector<ShaderValue> values;
 };
 
 struct TriangleRange {
   uint32_t first = 0;
   uint32_t count = 0;
+};
+
+/// Voxels from `low` to `high`, both ends included.
+struct VoxelBox {
+  std::array<int32_t, 3> low{0, 0, 0};
+  std::array<int32_t, 3> high{-1, -1, -1};
+  bool operator==(const VoxelBox&) const = default;
 };
 
 /// All that a pass can see. Commands recorded one after another see each other's writes: the context separates them.
@@ -59,6 +69,14 @@ class PassContext {
   [[nodiscard]] virtual bool connected(std::string_view input_port) const = 0;
   [[nodiscard]] virtual TriangleRange static_triangles() const = 0;
   [[nodiscard]] virtual TriangleRange dynamic_triangles() const = 0;
+  /// Does a persistent port still hold what this pass left in it in the frame before? If not (the first frame, a
+  /// history of the value is kept), all of it must be written.
+  [[nodiscard]] virtual bool kept(std::string_view port) const = 0;
+  /// Does anything read an output: a pass, an output of the graph, an observer? What nobody wants need not be written.
+  [[nodiscard]] virtual bool wanted(std::string_view output_port) const = 0;
+  /// Disjoint boxes of a grid of `grid` voxels around the scene that hold every voxel which dynamic triangles touch, in
+  /// this frame or in the one before. Empty where nothing moves within the grid.
+  [[nodiscard]] virtual std::vector<VoxelBox> moved_boxes(const Extent3& grid) const = 0;
 
   /// Fills every part of an output or scratch port with one colour (unsigned formats: cast to unsigned).
   virtual void clear(std::string_view port, const ClearColor& color) = 0;

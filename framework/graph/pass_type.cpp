@@ -45,6 +45,7 @@ class TableCheck {
     if (port.direction == Direction::in) {
       require(access.reads && !access.writes, which + "is an input, its access must read and not write");
       require(!port.bypass, which + "is an input and cannot have a bypass");
+      require(!port.persistent, which + "is an input and cannot be persistent");
       require(!port.array || port.dimension == Dimension::d2, which + "cannot be an array of 3D images");
       return;
     }

@@ -38,12 +38,15 @@ struct PassType {
   std::string doc;  ///< first sentence is the summary; names the source of its formulas
   std::vector<Port> ports;
   std::vector<Param> params;
-  FrameState reads = FrameState::none;
+  FrameState reads = FrameState::none;  ///< the most that any params make it read
+  /// What it reads with these params, a subset of `reads`; empty: `reads`, whatever the params.
+  std::function<FrameState(const ParamSet&)> reads_with;
   bool side_effect = false;  ///< a root: never culled
   std::function<void(PassContext&)> record;
 
   [[nodiscard]] const Port* find_port(std::string_view port, Direction direction) const;
   [[nodiscard]] const Param* find_param(std::string_view param) const;
+  [[nodiscard]] FrameState reads_of(const ParamSet& chosen) const { return reads_with ? reads_with(chosen) : reads; }
 };
 
 class PassRegistry {

@@ -36,10 +36,15 @@ struct Port {
   std::vector<PortPart> parts;
   Dimension dimension = Dimension::d2;
   ExtentRule extent = ExtentRule::any;
-  std::string like;  ///< with ExtentRule::like: the input port whose extent this port has
+  std::string like;      ///< with ExtentRule::like: the input port whose extent this port has
+  Extent3 fixed_extent;  ///< with ExtentRule::fixed
   Access access = Access::none;
   bool optional = false;  ///< inputs: may be left unconnected
   bool array = false;     ///< inputs: takes a history range `@a..b`
+  /// Outputs and scratch: a frame starts with what the pass left here a frame ago, so that the pass may rewrite a part
+  /// of it; PassContext::kept says whether there is something. What is left must not depend on what was there: the
+  /// image after a partial rewrite equals, bit for bit, the one a full rewrite would make.
+  bool persistent = false;
   std::optional<Bypass> bypass;
   std::string doc;
 };

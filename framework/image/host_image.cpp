@@ -33,6 +33,7 @@ ChannelType channel_type(Format format) {
       return ChannelType::float32;
     case Format::r32_uint:
     case Format::rg32_uint:
+    case Format::rgba32_uint:
       return ChannelType::uint32;
   }
   throw std::logic_error("unknown format");

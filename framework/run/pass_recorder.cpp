@@ -1,6 +1,7 @@
 #include "framework/run/pass_recorder.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "framework/base/error.hpp"
 #include "framework/gpu/rendering.hpp"
@@ -49,6 +50,30 @@ bool PassRecorder::connected(std::string_view input_port) const {
   return std::any_of(pass_.inputs.begin(), pass_.inputs.end(), [&](const Use& use) { return use.port == input_port; });
 }
 
+bool PassRecorder::kept(std::string_view port) const {
+  if (environment_.frame_count == 0) return false;
+  const auto persistent = std::find_if(pass_.type->ports.begin(), pass_.type->ports.end(), [&](const Port& candidate) {
+    return candidate.persistent && candidate.name == port && candidate.direction != Direction::in;
+  });
+  if (persistent == pass_.type->ports.end())
+    fail(pass_, "asks whether '" + std::string(port) + "' was kept, which is not a persistent port");
+  for (const std::vector<Use>* uses : {&pass_.outputs, &pass_.scratch})
+    for (const Use& use : *uses)
+      if (use.port == port && environment_.images->ring(use.value) > 1) return false;
+  return true;
+}
+
+bool PassRecorder::wanted(std::string_view output_port) const {
+  return std::any_of(pass_.outputs.begin(), pass_.outputs.end(),
+                     [&](const Use& use) { return use.port == output_port && is_read(graph_, use.value); });
+}
+
+std::vector<VoxelBox> PassRecorder::moved_boxes(const Extent3& grid) const {
+  if (dynamic_triangles().count == 0) return {};
+  const auto last = [](uint32_t length) { return static_cast<int32_t>(length) - 1; };
+  return {{{0, 0, 0}, {last(grid.width), last(grid.height), last(grid.depth)}}};
+}
+
 void PassRecorder::separate_commands() {
   if (recorded_) gpu::record_full_barrier(environment_.commands);
   recorded_ = true;
@@ -78,6 +103,9 @@ std::vector<ShaderValue> PassRecorder::values_for(const gpu::Reflection& reflect
     for (const std::vector<ShaderValue>* source : {&own, &known_values_})
       for (const ShaderValue& value : *source)
         if (value.name == name) return value;
+    constexpr std::string_view kWanted = "_wanted";
+    if (name.size() > kWanted.size() && name.compare(name.size() - kWanted.size(), kWanted.size(), kWanted) == 0)
+      return ShaderValue{name, wanted(std::string_view(name).substr(0, name.size() - kWanted.size()))};
     fail(pass_, "shader '" + reflection.name + "' has a constant '" + name +
                     "', which is neither a param, nor a feature of scenes, nor given by the pass");
   };
@@ -134,15 +162,19 @@ void PassRecorder::draw(const Draw& draw) {
     colors.push_back({view, {}});
     formats.colors.push_back(view.format);
   }
-  const Use& depth_use = written_use(draw.depth_port);
-  const gpu::ImageView depth = written_view(depth_use);
-  formats.depth = depth.format;
+  Extent3 extent = draw.area;
+  std::optional<gpu::DepthTarget> depth;
+  if (!draw.depth_port.empty()) {
+    const Use& use = written_use(draw.depth_port);
+    depth = gpu::DepthTarget{written_view(use), 1.0f};
+    formats.depth = depth->view.format;
+    extent = graph_.values[use.value].desc.extent;
+  }
   const std::vector<ShaderValue> values = values_for(program.reflection, draw.values);
   const gpu::Pipeline& pipeline =
       environment_.shaders->pipelines().graphics(program, specialization_values(program.reflection, values), formats);
   separate_commands();
-  const Extent3 extent = graph_.values[depth_use.value].desc.extent;
-  gpu::begin_rendering(environment_.commands, {extent.width, extent.height}, colors, gpu::DepthTarget{depth, 1.0f});
+  gpu::begin_rendering(environment_.commands, {extent.width, extent.height}, colors, depth);
   pipeline.bind(environment_.commands, bind_resources(pipeline),
                 gpu::encode_push_constants(pipeline.reflection(), values));
   vkCmdDraw(environment_.commands, draw.triangle_count * 3, 1, draw.first_triangle * 3, 0);

@@ -37,6 +37,9 @@ class PassRecorder final : public PassContext {
   [[nodiscard]] bool connected(std::string_view input_port) const override;
   [[nodiscard]] TriangleRange static_triangles() const override { return environment_.scene->static_triangles; }
   [[nodiscard]] TriangleRange dynamic_triangles() const override { return environment_.scene->dynamic_triangles; }
+  [[nodiscard]] bool kept(std::string_view port) const override;
+  [[nodiscard]] bool wanted(std::string_view output_port) const override;
+  [[nodiscard]] std::vector<VoxelBox> moved_boxes(const Extent3& grid) const override;
   void clear(std::string_view port, const ClearColor& color) override;
   void dispatch(const Dispatch& dispatch) override;
   void draw(const Draw& draw) override;

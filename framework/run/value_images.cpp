@@ -13,6 +13,7 @@ VkImageUsageFlags usage_of(Access access) {
     case Access::compute_storage_read:
     case Access::compute_storage_write:
     case Access::compute_storage_read_write:
+    case Access::fragment_storage_read_write:
       return VK_IMAGE_USAGE_STORAGE_BIT;
     case Access::color_attachment_write:
       return VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;

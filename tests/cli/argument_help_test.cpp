@@ -11,6 +11,7 @@
 #include "framework/base/text.hpp"
 #include "framework/cli/text_layout.hpp"
 #include "tests/cli/sample_program.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom::cli {
 namespace {
@@ -109,9 +110,9 @@ TEST(BashCompletion, completes_commands_options_and_choices) {
 }
 
 TEST(BashCompletion, completes_files_where_a_file_is_expected) {
-  EXPECT_THAT(complete({"lightloom", "render", "--scene", "CMakeL"}, LIGHTLOOM_SOURCE_DIR),
+  EXPECT_THAT(complete({"lightloom", "render", "--scene", "CMakeL"}, source_dir().string()),
               ElementsAre("CMakeLists.txt"));
-  EXPECT_THAT(complete({"lightloom", "render", "CMakeL"}, LIGHTLOOM_SOURCE_DIR), ElementsAre("CMakeLists.txt"));
+  EXPECT_THAT(complete({"lightloom", "render", "CMakeL"}, source_dir().string()), ElementsAre("CMakeLists.txt"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tests/cli/sample_program.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom::cli {
 namespace {
@@ -174,10 +175,10 @@ TEST(ArgumentParser, an_existing_file_is_one_that_exists) {
   Command program("p", "P");
   std::filesystem::path file;
   program.option("--file", file, "A file").existing_file();
-  EXPECT_EQ(program.parse({"--file", LIGHTLOOM_SOURCE_DIR "/CMakeLists.txt"}).kind, Kind::run);
+  EXPECT_EQ(program.parse({"--file", source_dir().string() + "/CMakeLists.txt"}).kind, Kind::run);
   EXPECT_THAT(messages(program.parse({"--file", "no/such"})),
               ElementsAre("option '--file': there is no file 'no/such'"));
-  EXPECT_EQ(program.parse({"--file", LIGHTLOOM_SOURCE_DIR}).kind, Kind::problems);
+  EXPECT_EQ(program.parse({"--file", source_dir().string()}).kind, Kind::problems);
 }
 
 TEST(ArgumentParser, contradicting_declarations_are_the_programmers_error) {

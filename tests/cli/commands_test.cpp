@@ -10,6 +10,7 @@
 #include "framework/cli/program.hpp"
 #include "framework/cli/text_layout.hpp"
 #include "passes/registry.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom::cli {
 namespace {
@@ -21,7 +22,7 @@ using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
-const std::string kSource = LIGHTLOOM_SOURCE_DIR;
+const std::string kSource = source_dir().string();
 const std::string kGraph = kSource + "/graphs/paper.json";
 const std::string kScene = kSource + "/samples/scenes/atrium.scene.json";
 

@@ -17,6 +17,7 @@
 #include "framework/graph/link.hpp"
 #include "framework/run/compile_graph.hpp"
 #include "passes/registry.hpp"
+#include "tests/support/source_dir.hpp"
 
 // What the documents say is run: each fenced block of shell commands in a folder of its own, each graph through the
 // compiler, each link to a file.
@@ -25,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kSource = LIGHTLOOM_SOURCE_DIR;
+const fs::path kSource = lightloom::source_dir();
 
 struct Block {
   std::string language;

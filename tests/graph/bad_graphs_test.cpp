@@ -10,11 +10,12 @@
 #include "passes/registry.hpp"
 #include "tests/graph/fixed_registry.hpp"
 #include "tests/graph/toy_graphs.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom {
 namespace {
 
-const std::filesystem::path kFolder = std::filesystem::path(LIGHTLOOM_SOURCE_DIR) / "tests" / "graphs_bad";
+const std::filesystem::path kFolder = source_dir() / "tests" / "graphs_bad";
 
 /// "line:column code"
 std::string place_and_code(const SourceLocation& where, const std::string& code) {

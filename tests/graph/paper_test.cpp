@@ -9,6 +9,7 @@
 #include "passes/registry.hpp"
 #include "tests/graph/hazard_checker.hpp"
 #include "tests/graph/toy_graphs.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom {
 namespace {
@@ -23,7 +24,7 @@ const PassRegistry& real_passes() {
 }
 
 std::string paper_text() {
-  return read_text_file(std::filesystem::path(LIGHTLOOM_SOURCE_DIR) / "graphs" / "paper.json");
+  return read_text_file(source_dir() / "graphs" / "paper.json");
 }
 
 Graph paper(const LinkOptions& options = {}, bool dynamic = true) {

@@ -3,6 +3,7 @@
 #include "framework/base/file.hpp"
 #include "framework/graph/graph_spec.hpp"
 #include "tests/graph/toy_graphs.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom {
 namespace {
@@ -98,8 +99,7 @@ TEST(ParseGraph, GoesOnBehindEveryProblemAndIntoTheLinker) {
 
 TEST(ParseGraph, ShippedGraphsHaveNoProblem) {
   int count = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(LIGHTLOOM_SOURCE_DIR) / "graphs")) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "graphs")) {
     Diagnostics diagnostics;
     static_cast<void>(parse_graph(read_text_file(entry.path()), entry.path().filename().string(), diagnostics));
     for (const Diagnostic& diagnostic : diagnostics.all()) ADD_FAILURE() << format_diagnostic(diagnostic);

@@ -8,6 +8,7 @@
 #include "framework/graph/graph_spec.hpp"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/graph_runner.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom::run {
 namespace {
@@ -170,7 +171,7 @@ TEST_F(ExecutorTest, TimesOfEveryPassAreReported) {
   const auto graph = link(*spec, registry, {}, {}, diagnostics);
   ASSERT_TRUE(graph);
   ShaderFolders shaders = default_shader_folders();
-  shaders.sources.push_back(std::filesystem::path(LIGHTLOOM_SOURCE_DIR) / "tests/passes/shaders");
+  shaders.sources.push_back(source_dir() / "tests/passes/shaders");
   Executor executor(device(), compile(*graph), quad,
                     {.shaders = shaders, .camera = "", .seed = 0, .frames_per_second = 30});
   const FrameResult result = executor.run_frame(3);

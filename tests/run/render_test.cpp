@@ -14,6 +14,7 @@
 #include "framework/image/png.hpp"
 #include "framework/run/compile_graph.hpp"
 #include "passes/registry.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom::run {
 namespace {
@@ -51,7 +52,7 @@ class Render : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  static fs::path source(const char* relative) { return fs::path(LIGHTLOOM_SOURCE_DIR) / relative; }
+  static fs::path source(const char* relative) { return source_dir() / relative; }
 
   RenderRequest request(const std::string& out, uint32_t last_frame) const {
     RenderRequest made;

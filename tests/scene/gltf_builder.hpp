@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "framework/scene/scene.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom::scene::test {
 
@@ -155,7 +156,7 @@ std::vector<uint8_t> make_png(uint32_t width, uint32_t height, int bit_depth, in
 
 /// Where the shared scenes lie; empty if they are absent.
 inline std::filesystem::path shared_scenes() {
-  const std::filesystem::path path = std::filesystem::path(LIGHTLOOM_SOURCE_DIR) / "../shared/scenes";
+  const std::filesystem::path path = source_dir() / "../shared/scenes";
   return std::filesystem::is_directory(path) ? std::filesystem::weakly_canonical(path) : std::filesystem::path();
 }
 

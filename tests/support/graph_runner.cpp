@@ -10,6 +10,7 @@
 #include "framework/run/executor.hpp"
 #include "passes/registry.hpp"
 #include "tests/support/device_fixture.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom::test {
 namespace {
@@ -59,7 +60,7 @@ std::vector<Images> run_graph(std::string_view graph_json, const scene::Scene& s
   LinkOptions link_options = options.link;
   link_options.captures.insert(link_options.captures.end(), options.capture.begin(), options.capture.end());
   run::ShaderFolders shaders = run::default_shader_folders();
-  shaders.sources.push_back(std::filesystem::path(LIGHTLOOM_SOURCE_DIR) / "tests/passes/shaders");
+  shaders.sources.push_back(source_dir() / "tests/passes/shaders");
   run::Executor executor(shared_device(), compile_text(graph_json, registry, link_options, scene), scene,
                          {.shaders = shaders, .camera = options.camera, .seed = options.seed, .frames_per_second = 30});
   std::vector<Images> frames;

@@ -7,6 +7,7 @@
 
 #include "framework/gpu/descriptors.hpp"
 #include "framework/gpu/transfer.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom::test {
 namespace {
@@ -40,7 +41,7 @@ gpu::Buffer make_buffer(gpu::Device& device, std::vector<float> values, const ch
 
 std::vector<float> run_snippet(gpu::Device& device, const std::string& body_glsl, std::span<const float> inputs,
                                size_t output_count, uint32_t invocations) {
-  const std::filesystem::path source(LIGHTLOOM_SOURCE_DIR);
+  const std::filesystem::path source = source_dir();
   gpu::ShaderCompiler compiler({.include_directories = {source / "shaders"}, .cache_directory = {}});
   const std::array stages{gpu::ShaderSource{.name = "snippet", .text = wrap(body_glsl), .stage = gpu::Stage::compute}};
   const gpu::Pipeline pipeline(device, gpu::make_program(compiler.compile(stages)), {});
