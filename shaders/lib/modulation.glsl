@@ -9,6 +9,17 @@
 const float kModulationFloor = 1e-3;
 
 // `cosine`: between the shading normal and the direction to the viewer.
+//
+// The same for each lobe: who divides one lobe's radiance by its colour and who multiplies it again call the same
+// function, so that an unfiltered lobe comes back to rounding, also where a colour is 0 in a channel.
+vec3 diffuse_modulation(Bsdf bsdf, float cosine) { return max(diffuse_albedo(bsdf, cosine), vec3(kModulationFloor)); }
+
+vec3 specular_modulation(Bsdf bsdf, float cosine) {
+  vec3 reflectance = has_specular ? specular_fresnel(bsdf, cosine) : vec3(0.0);
+  return max(reflectance, vec3(kModulationFloor));
+}
+
+// Both lobes together.
 vec3 modulation_color(Bsdf bsdf, float cosine) {
   vec3 reflectance = diffuse_albedo(bsdf, cosine);
   if (has_specular) reflectance += specular_fresnel(bsdf, cosine);
