@@ -10,6 +10,17 @@ vec2 filter_roughness(vec2 alpha, float share) {
   return mix(vec2(1.0), clamp(alpha, vec2(0.0), vec2(1.0)), share2 * share2);
 }
 
+// Which part of the reflected light a filter is given: values of the param `lobe`.
+const uint kLobeBoth = 0u;
+const uint kLobeDiffuse = 1u;
+const uint kLobeSpecular = 2u;
+
+// The same for a filter that may be given one lobe alone: the base's light counts as 1, that of the lobe by its alpha.
+vec2 lobe_roughness(uint lobe, vec2 alpha, float share) {
+  if (lobe == kLobeDiffuse) return vec2(1.0);
+  return filter_roughness(alpha, lobe == kLobeSpecular ? 1.0 : share);
+}
+
 // Weight of a frame `age` frames ago (paper, section 2.3): a Hermite curve over the age, stretched by the roughness.
 // 1 for all ages at roughness 1, 0 for all but the current frame at roughness 0, and in between it falls to 0 at age
 // frames * roughness / (1 - roughness).
