@@ -3,7 +3,8 @@
 #ifndef LIGHTLOOM_LIB_MODULATION
 #define LIGHTLOOM_LIB_MODULATION
 
-#include "lib/bsdf.glsl"
+#include "lib/features.glsl"
+#include "lib/reflectance.glsl"
 
 // Below it a surface is so black that dividing would only amplify rounding.
 const float kModulationFloor = 1e-3;

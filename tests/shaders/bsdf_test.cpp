@@ -19,6 +19,7 @@ struct Surface {
 };
 
 const std::string kRead = R"(
+#include "lib/bsdf.glsl"
 #include "lib/modulation.glsl"
 Bsdf surface() { return Bsdf(vec3(inputs[0]), inputs[1], inputs[2], inputs[3], vec2(inputs[4], inputs[5])); }
 vec3 at(uint k) { return vec3(inputs[6u + 3u * k], inputs[7u + 3u * k], inputs[8u + 3u * k]); }

@@ -108,7 +108,7 @@ void evaluate(uint index) {
   outputs[4u * index] = o.x;
   outputs[4u * index + 1u] = o.y;
   outputs[4u * index + 2u] = o.z;
-  outputs[4u * index + 3u] = o.z > 0.0 ? ward_weight(i.z, o.z) : 0.0;
+  outputs[4u * index + 3u] = o.z > 0.0 ? ward_weight(i, o, alpha) : 0.0;
 })";
 
 struct Lobe {

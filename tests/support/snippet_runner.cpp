@@ -40,11 +40,11 @@ gpu::Buffer make_buffer(gpu::Device& device, std::vector<float> values, const ch
 }  // namespace
 
 std::vector<float> run_snippet(gpu::Device& device, const std::string& body_glsl, std::span<const float> inputs,
-                               size_t output_count, uint32_t invocations) {
+                               size_t output_count, uint32_t invocations, std::span<const ShaderValue> constants) {
   const std::filesystem::path source = source_dir();
   gpu::ShaderCompiler compiler({.include_directories = {source / "shaders"}, .cache_directory = {}});
   const std::array stages{gpu::ShaderSource{.name = "snippet", .text = wrap(body_glsl), .stage = gpu::Stage::compute}};
-  const gpu::Pipeline pipeline(device, gpu::make_program(compiler.compile(stages)), {});
+  const gpu::Pipeline pipeline(device, gpu::make_program(compiler.compile(stages)), constants);
   const gpu::Buffer input = make_buffer(device, {inputs.begin(), inputs.end()}, "inputs");
   const gpu::Buffer output = make_buffer(device, std::vector<float>(output_count), "outputs");
   gpu::DescriptorAllocator descriptors(device);
