@@ -7,8 +7,26 @@
 namespace lightloom::passes {
 namespace {
 
-std::vector<Param> rejection_params() {
+std::vector<Param> shape_params() {
   return {
+      {"lobe",
+       ParamType::choice,
+       std::string("both"),
+       {},
+       {},
+       {"both", "diffuse", "specular"},
+       "",
+       "which reflected light `radiance` is, and so the roughness that scales the filter: `diffuse` 1; `specular` the "
+       "Ward alphas; `both` between them, by the fourth power of the specular share of the reflectance"},
+      {"kernel",
+       ParamType::choice,
+       std::string("anisotropic"),
+       {},
+       {},
+       {"anisotropic", "isotropic"},
+       "",
+       "`anisotropic`: the roughness along each axis; `isotropic`, for comparison: their geometric mean along both, "
+       "which covers the same area"},
       {"floor_fraction",
        ParamType::real,
        0.0035,
@@ -29,6 +47,28 @@ std::vector<Param> rejection_params() {
   };
 }
 
+std::vector<Param> guide_params() {
+  return {
+      {"variance_guide",
+       ParamType::real,
+       1.0,
+       0,
+       1,
+       {},
+       "",
+       "with `variance` connected, how far the half length may shrink where the radiance is known well: 0 not at all, "
+       "1 to one pixel"},
+      {"full_width_error",
+       ParamType::real,
+       0.25,
+       1e-6,
+       1e6,
+       {},
+       "",
+       "relative standard error of the radiance from which on the filter has its full length"},
+  };
+}
+
 }  // namespace
 
 PassType make_spatial_filter(const std::string& name, std::string doc, std::vector<Param> own_params) {
@@ -38,10 +78,15 @@ PassType make_spatial_filter(const std::string& name, std::string doc, std::vect
   Port radiance =
       image_output_like("radiance", Format::rgba32_sfloat, "radiance", "rgb: filtered radiance; a: as it came in");
   radiance.bypass = Bypass{"radiance", {}};
-  type.ports = {image_input("radiance", Format::rgba32_sfloat, "what to filter"),
-                same_size_as("radiance", surface_input("surface", "G-buffer of the same pixels")), radiance};
+  Port variance = same_size_as("radiance", image_input("variance", Format::r32_sfloat,
+                                                       "estimated variance of the luminance of `radiance`; "
+                                                       "unconnected: the filter has its full length everywhere"));
+  variance.optional = true;
+  type.ports = {image_input("radiance", Format::rgba32_sfloat, "what to filter; a: 0 where there is nothing"),
+                same_size_as("radiance", surface_input("surface", "G-buffer of the same pixels")), variance, radiance};
   type.params = std::move(own_params);
-  for (Param& param : rejection_params()) type.params.push_back(std::move(param));
+  for (Param& param : shape_params()) type.params.push_back(std::move(param));
+  for (Param& param : guide_params()) type.params.push_back(std::move(param));
   type.reads = FrameState::camera;
   type.record = [shader = name + ".comp"](PassContext& context) {
     context.dispatch({shader, context.output_extent("radiance"), {}});

@@ -9,27 +9,46 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform writeonly image2D out_radiance;
 
+layout(constant_id = 10) const uint cutoff = 0u;   // 0: radial, 1: elliptic
+
 layout(push_constant) uniform Params {
   uint axis;   // 0: x, 1: y
   uint radius;
   float floor_fraction;
   float distance_fraction;
   float normal_threshold;
+  float variance_guide;
+  float full_width_error;
 };
+
+// Within the ellipse around the centre on its surface? Multiplied out, for half axes may be 0.
+bool within_ellipse(Centre centre, ivec2 pixel) {
+  vec3 offset = texelFetch(surface_position, pixel, 0).xyz - centre.position.xyz;
+  vec2 place = vec2(dot(offset, centre.tangent), dot(offset, centre.bitangent)) * centre.reach.yx;
+  float limit = centre.reach.x * centre.reach.y;
+  return dot(place, place) <= limit * limit;
+}
+
+void add_within_cutoff(Centre centre, ivec2 pixel, inout vec4 sum) {
+  if (cutoff == 0u || within_ellipse(centre, pixel)) add_neighbour(centre, pixel, sum);
+}
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, textureSize(radiance, 0)))) return;
+  FilterShape shape =
+      FilterShape(floor_fraction, distance_fraction, normal_threshold, variance_guide, full_width_error);
   Centre centre;
-  if (!load_centre(pixel, floor_fraction * scene_diagonal(), distance_fraction, centre)) {
+  if (!load_centre(pixel, shape, centre)) {
     imageStore(out_radiance, pixel, centre.radiance);
     return;
   }
   ivec2 direction = axis == 0u ? ivec2(1, 0) : ivec2(0, 1);
+  int taps = min(int(radius), max(int(round(float(radius) * centre.kept)), 1));
   vec4 sum = vec4(centre.radiance.rgb, 1.0);
-  for (int k = 1; k <= int(radius); ++k) {
-    add_neighbour(centre, pixel + direction * k, normal_threshold, sum);
-    add_neighbour(centre, pixel - direction * k, normal_threshold, sum);
+  for (int k = 1; k <= taps; ++k) {
+    add_within_cutoff(centre, pixel + direction * k, sum);
+    add_within_cutoff(centre, pixel - direction * k, sum);
   }
   imageStore(out_radiance, pixel, vec4(sum.rgb / sum.a, centre.radiance.a));
 }

@@ -7,7 +7,6 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform texture2D surface_tangent;
 uniform writeonly image2D out_radiance;
 
 layout(push_constant) uniform Params {
@@ -16,11 +15,14 @@ layout(push_constant) uniform Params {
   float floor_fraction;
   float distance_fraction;
   float normal_threshold;
+  float variance_guide;
+  float full_width_error;
 };
 
 // Marches from the centre along a direction of the world as it appears on the screen, one tap for each pixel that is
-// crossed. If there are more than `taps`, they spread over the whole length.
-void march_side(Centre centre, vec2 start, vec3 direction, float reach_along, inout vec4 sum) {
+// crossed. If there are more than `taps`, they spread over the whole length. Where the full length crosses a pixel, so
+// does what a guide leaves of it.
+void march_side(Centre centre, vec3 direction, float reach_along, inout vec4 sum) {
   vec2 size = vec2(textureSize(radiance, 0));
   vec4 origin = frame.view_projection[0] * vec4(centre.position.xyz, 1.0);
   vec4 slope = frame.view_projection[0] * vec4(direction, 0.0);
@@ -29,25 +31,27 @@ void march_side(Centre centre, vec2 start, vec3 direction, float reach_along, in
   vec2 path = clip_to_pixel(origin + slope * reach, size) - clip_to_pixel(origin, size);
   float crossed = max(abs(path.x), abs(path.y));
   if (!(crossed >= 1.0)) return;
-  float count = min(floor(crossed), float(taps));
-  vec2 stride = path / (count < floor(crossed) ? count : crossed);
-  for (float k = 1.0; k <= count; ++k) add_neighbour(centre, ivec2(floor(start + stride * k)), normal_threshold, sum);
+  float kept = max(crossed * centre.kept, 1.0);
+  float count = min(floor(kept), float(taps));
+  vec2 stride = path / crossed * (count < floor(kept) ? kept / count : 1.0);
+  vec2 start = vec2(centre.pixel) + 0.5;
+  for (float k = 1.0; k <= count; ++k) add_neighbour(centre, ivec2(floor(start + stride * k)), sum);
 }
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, textureSize(radiance, 0)))) return;
+  FilterShape shape =
+      FilterShape(floor_fraction, distance_fraction, normal_threshold, variance_guide, full_width_error);
   Centre centre;
-  if (!load_centre(pixel, floor_fraction * scene_diagonal(), distance_fraction, centre)) {
+  if (!load_centre(pixel, shape, centre)) {
     imageStore(out_radiance, pixel, centre.radiance);
     return;
   }
-  vec4 tangent = texelFetch(surface_tangent, pixel, 0);
-  vec3 direction = axis == 0u ? tangent.xyz : cross(centre.normal, tangent.xyz);
-  float reach_along = centre.reach * (axis == 0u ? centre.roughness.x : centre.roughness.y);
+  vec3 direction = axis == 0u ? centre.tangent : centre.bitangent;
+  float reach_along = axis == 0u ? centre.reach.x : centre.reach.y;
   vec4 sum = vec4(centre.radiance.rgb, 1.0);
-  vec2 start = vec2(pixel) + 0.5;
-  march_side(centre, start, direction, reach_along, sum);
-  march_side(centre, start, -direction, reach_along, sum);
+  march_side(centre, direction, reach_along, sum);
+  march_side(centre, -direction, reach_along, sum);
   imageStore(out_radiance, pixel, vec4(sum.rgb / sum.a, centre.radiance.a));
 }

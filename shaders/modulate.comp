@@ -10,7 +10,10 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+layout(constant_id = 0) const bool specular_bound = false;
+
 uniform texture2D radiance;
+uniform texture2D specular;
 uniform texture2D surface_position;
 uniform texture2D surface_normal;
 uniform texture2D surface_albedo;
@@ -25,6 +28,15 @@ vec3 view_direction(ivec2 pixel, ivec2 size) {
   return normalize(point.xyz / point.w - frame.eye[0].xyz);
 }
 
+// `cosine`: between the shading normal and the direction to the viewer, as the tracer takes it.
+vec3 reflected_radiance(ivec2 pixel, Bsdf bsdf, float cosine) {
+  vec3 first = texelFetch(radiance, pixel, 0).rgb;
+  if (!specular_bound) return first * modulation_color(bsdf, cosine);
+  vec3 result = first * diffuse_modulation(bsdf, cosine);
+  if (has_specular) result += texelFetch(specular, pixel, 0).rgb * specular_modulation(bsdf, cosine);
+  return result;
+}
+
 vec3 surface_radiance(ivec2 pixel, vec3 position) {
   vec4 emission = texelFetch(surface_emission, pixel, 0);
   vec4 albedo = texelFetch(surface_albedo, pixel, 0);
@@ -33,7 +45,7 @@ vec3 surface_radiance(ivec2 pixel, vec3 position) {
   vec3 to_viewer = normalize(frame.eye[0].xyz - position * frame.eye[0].w);
   vec3 normal = facing_normal(normalize(texelFetch(surface_normal, pixel, 0).xyz), to_viewer);
   Bsdf bsdf = Bsdf(albedo.rgb, albedo.w, material.z, material.w, material.xy);
-  return texelFetch(radiance, pixel, 0).rgb * modulation_color(bsdf, dot(normal, to_viewer)) + emission.rgb;
+  return reflected_radiance(pixel, bsdf, dot(normal, to_viewer)) + emission.rgb;
 }
 
 void main() {

@@ -35,6 +35,15 @@ float filter_reach(float floor_length, float distance_fraction, float view_depth
   return max(floor_length, distance_fraction * view_depth);
 }
 
+// How much of its length a filter keeps where the mean is known to a relative standard error `error`: full from
+// `full_width_error` on, going to 0 with the error, without a kink at either end of the range that matters: x (2 - x).
+// The number of pixels that a filter of two such passes averages falls with the square of the length, so that at small
+// errors the error after the filter is about the same everywhere.
+float guided_length(float error, float full_width_error) {
+  float x = clamp(error / full_width_error, 0.0, 1.0);
+  return x * (2.0 - x);
+}
+
 // Position in pixels (pixel (i, j) covers [i, i+1) x [j, j+1)) of a point in clip space.
 vec2 clip_to_pixel(vec4 clip, vec2 size) { return (clip.xy / clip.w * 0.5 + 0.5) * size; }
 

@@ -1,18 +1,34 @@
-// Rejection tests of the spatial filters. Needs `radiance` and the parts of `surface` as textures.
+// What the spatial filters share: how far they reach from a pixel, and which neighbours belong to it.
 #ifndef LIGHTLOOM_LIB_NEIGHBOUR
 #define LIGHTLOOM_LIB_NEIGHBOUR
 
+#include "lib/color.glsl"
 #include "lib/filter.glsl"
 #include "lib/modulation.glsl"
 #include "lib/sampling.glsl"
 #include "lib/scene.glsl"
 
+layout(constant_id = 0) const uint lobe = 0u;     // kLobeBoth, ...
+layout(constant_id = 1) const uint kernel = 0u;   // 0: anisotropic, 1: isotropic
+layout(constant_id = 2) const bool variance_bound = false;
+
 uniform texture2D radiance;
 uniform texture2D surface_position;
 uniform texture2D surface_normal;
+uniform texture2D surface_tangent;
 uniform texture2D surface_albedo;
 uniform texture2D surface_material;
 uniform utexture2D surface_id;
+uniform texture2D variance;
+
+// Push constants by the names of the params in passes/spatial_filter.cpp.
+struct FilterShape {
+  float floor_fraction;
+  float distance_fraction;
+  float normal_threshold;
+  float variance_guide;
+  float full_width_error;
+};
 
 // The pixel that is being filtered.
 struct Centre {
@@ -20,37 +36,71 @@ struct Centre {
   vec4 radiance;
   vec4 position;    // [m]; w: view depth
   vec3 normal;
+  vec3 tangent;
+  vec3 bitangent;
   uint object;
-  vec2 roughness;   // along the tangent and the bitangent
-  float reach;      // half length at roughness 1 [m]
+  vec2 reach;       // half lengths along tangent and bitangent [m]
+  float kept;       // part of its length that a filter keeps, 0 to 1
+  float normal_threshold;
 };
-
-// False where there is nothing to filter: background, unlit.
-bool load_centre(ivec2 pixel, float floor_length, float distance_fraction, out Centre centre) {
-  centre.pixel = pixel;
-  centre.radiance = texelFetch(radiance, pixel, 0);
-  centre.position = texelFetch(surface_position, pixel, 0);
-  centre.normal = texelFetch(surface_normal, pixel, 0).xyz;
-  centre.object = texelFetch(surface_id, pixel, 0).x;
-  vec4 albedo = texelFetch(surface_albedo, pixel, 0);
-  vec4 material = texelFetch(surface_material, pixel, 0);
-  vec3 to_viewer = normalize(frame.eye[0].xyz - centre.position.xyz * frame.eye[0].w);
-  Bsdf bsdf = Bsdf(albedo.rgb, albedo.w, material.z, material.w, material.xy);
-  centre.roughness = filter_roughness(material.xy, specular_share(bsdf, dot(centre.normal, to_viewer)));
-  centre.reach = filter_reach(floor_length, distance_fraction, centre.position.w);
-  return centre.position.w > 0.0 && centre.radiance.a > 0.0;
-}
 
 float scene_diagonal() { return length(frame.scene_max.xyz - frame.scene_min.xyz); }
 
+vec2 kernel_roughness(Centre centre) {
+  vec4 albedo = texelFetch(surface_albedo, centre.pixel, 0);
+  vec4 material = texelFetch(surface_material, centre.pixel, 0);
+  vec3 to_viewer = normalize(frame.eye[0].xyz - centre.position.xyz * frame.eye[0].w);
+  Bsdf bsdf = Bsdf(albedo.rgb, albedo.w, material.z, material.w, material.xy);
+  float share = lobe == kLobeBoth ? specular_share(bsdf, dot(centre.normal, to_viewer)) : 1.0;
+  vec2 roughness = lobe_roughness(lobe, material.xy, share);
+  return kernel == 0u ? roughness : vec2(sqrt(roughness.x * roughness.y));
+}
+
+// Part of the length to keep, from the relative standard error of a pixel's radiance. Mean and variance are themselves
+// estimates of few samples, and both are small where by chance no light was found; so they are taken over the 3x3 pixels
+// around, as far as they show the same object.
+float kept_length(Centre centre, FilterShape shape) {
+  if (!variance_bound || shape.variance_guide <= 0.0) return 1.0;
+  ivec2 last = textureSize(radiance, 0) - 1;
+  vec3 sum = vec3(0.0);   // luminance, its variance, pixels
+  for (int k = 0; k < 9; ++k) {
+    ivec2 pixel = clamp(centre.pixel + ivec2(k % 3, k / 3) - 1, ivec2(0), last);
+    if (texelFetch(surface_id, pixel, 0).x != centre.object) continue;
+    vec4 value = texelFetch(radiance, pixel, 0);
+    vec3 moments = vec3(luminance(value.rgb), texelFetch(variance, pixel, 0).x, 1.0);
+    if (value.a > 0.0 && is_finite(moments)) sum += max(moments, vec3(0.0));
+  }
+  // Nothing found, nothing known.
+  if (!(sum.x > 0.0)) return 1.0;
+  float error = sqrt(sum.y * sum.z) / sum.x;
+  return mix(1.0, guided_length(error, shape.full_width_error), shape.variance_guide);
+}
+
+// False where there is nothing to filter: background, unlit.
+bool load_centre(ivec2 pixel, FilterShape shape, out Centre centre) {
+  centre.pixel = pixel;
+  centre.radiance = texelFetch(radiance, pixel, 0);
+  centre.position = texelFetch(surface_position, pixel, 0);
+  if (!(centre.position.w > 0.0 && centre.radiance.a > 0.0)) return false;
+  centre.normal = texelFetch(surface_normal, pixel, 0).xyz;
+  centre.tangent = texelFetch(surface_tangent, pixel, 0).xyz;
+  centre.bitangent = cross(centre.normal, centre.tangent);
+  centre.object = texelFetch(surface_id, pixel, 0).x;
+  float length = filter_reach(shape.floor_fraction * scene_diagonal(), shape.distance_fraction, centre.position.w);
+  centre.reach = length * kernel_roughness(centre);
+  centre.kept = kept_length(centre, shape);
+  centre.normal_threshold = shape.normal_threshold;
+  return true;
+}
+
 // Adds a neighbour if it shows the same object, faces alike and lies within the radial cut-off.
-void add_neighbour(Centre centre, ivec2 pixel, float normal_threshold, inout vec4 sum) {
+void add_neighbour(Centre centre, ivec2 pixel, inout vec4 sum) {
   if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(radiance, 0)))) return;
   if (texelFetch(surface_id, pixel, 0).x != centre.object) return;
   vec3 offset = texelFetch(surface_position, pixel, 0).xyz - centre.position.xyz;
-  float cutoff = centre.reach * max(centre.roughness.x, centre.roughness.y);
+  float cutoff = max(centre.reach.x, centre.reach.y);
   if (!(dot(offset, offset) <= cutoff * cutoff)) return;
-  if (!(dot(texelFetch(surface_normal, pixel, 0).xyz, centre.normal) >= normal_threshold)) return;
+  if (!(dot(texelFetch(surface_normal, pixel, 0).xyz, centre.normal) >= centre.normal_threshold)) return;
   vec4 value = texelFetch(radiance, pixel, 0);
   if (value.a <= 0.0 || !is_finite(value.rgb)) return;
   sum += vec4(value.rgb, 1.0);
