@@ -36,6 +36,7 @@ constexpr std::array kDeclaredReads = {
     DeclaredRead{"texture_pages", {FrameState::materials, FrameState::materials}},
     DeclaredRead{"LightBlock", {FrameState::lights, FrameState::lights}},
     DeclaredRead{"environment_map", {FrameState::lights, FrameState::lights}},
+    DeclaredRead{"environment_table", {FrameState::lights, FrameState::lights}},
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "framework/base/error.hpp"
 #include "framework/gpu/transfer.hpp"
+#include "framework/scene/environment_sampler.hpp"
 #include "framework/scene/gpu_material.hpp"
 #include "framework/scene/texture_pages.hpp"
 
@@ -76,6 +77,20 @@ gpu::Image upload_page(gpu::Device& device, const scene::TexturePage& page) {
   return image;
 }
 
+gpu::Image upload_map(gpu::Device& device, VkFormat format, const Extent3& extent, std::span<const std::byte> texels,
+                      const char* name) {
+  gpu::Image image(device, {.format = format,
+                            .dimension = Dimension::d2,
+                            .extent = extent,
+                            .layers = 1,
+                            .mip_levels = 1,
+                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                            .name = name});
+  const gpu::SubimageData data{.layer = 0, .mip_level = 0, .texels = texels};
+  gpu::upload_image(device, image, std::span(&data, 1));
+  return image;
+}
+
 TriangleRange range(size_t first, size_t end) {
   return {static_cast<uint32_t>(first), static_cast<uint32_t>(end - first)};
 }
@@ -139,16 +154,10 @@ void SceneResources::upload_environment(gpu::Device& device) {
       rgba.push_back(constant ? 1.0f : environment.rgb[texel * 3 + channel]);
     rgba.push_back(1.0f);
   }
-  environment_.emplace_back(device,
-                            gpu::ImageSpec{.format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                                           .dimension = Dimension::d2,
-                                           .extent = extent,
-                                           .layers = 1,
-                                           .mip_levels = 1,
-                                           .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                                           .name = "environment map"});
-  const gpu::SubimageData data{.layer = 0, .mip_level = 0, .texels = bytes_of(rgba)};
-  gpu::upload_image(device, environment_.front(), std::span(&data, 1));
+  environment_.push_back(upload_map(device, VK_FORMAT_R32G32B32A32_SFLOAT, extent, bytes_of(rgba), "environment map"));
+  const scene::EnvironmentTable table = scene::build_environment_table(environment);
+  environment_.push_back(upload_map(device, VK_FORMAT_R32G32_SFLOAT, {table.columns + 1, table.rows, 1},
+                                    bytes_of(table.texels), "environment table"));
 }
 
 void SceneResources::bind() {
@@ -163,6 +172,7 @@ void SceneResources::bind() {
   resources.emplace("MaterialBlock", gpu::resource(materials_.front()));
   resources.emplace("texture_pages", pages);
   resources.emplace("environment_map", gpu::resource(environment_.front(), samplers_.equirectangular()));
+  resources.emplace("environment_table", gpu::resource(environment_.back(), samplers_.clamp_linear()));
   for (const auto& [name, present] : scene_.features.named()) bindings_.values.push_back({"has_" + name, present});
   const std::vector<ShaderValue> textures = texture_values(scene_.materials, used_page_count_);
   bindings_.values.insert(bindings_.values.end(), textures.begin(), textures.end());

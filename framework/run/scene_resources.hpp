@@ -60,7 +60,7 @@ class SceneResources {
   std::vector<gpu::Buffer> materials_;     ///< one
   std::vector<gpu::Image> texture_pages_;  ///< as many as shaders declare; white beyond those in use
   uint32_t used_page_count_ = 0;
-  std::vector<gpu::Image> environment_;  ///< one
+  std::vector<gpu::Image> environment_;  ///< the image, and the table by which its light is sampled
   SceneBindings bindings_;
 };
 
