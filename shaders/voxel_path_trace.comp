@@ -1,8 +1,8 @@
 // Paths from the G-buffer through the voxel grid. See passes/voxel_path_trace.cpp for the ports and params.
 //
 // Vertex 0 is the first hit, vertices 1 to `bounces` are voxels. Every vertex gathers direct light; the ray that leaves
-// it adds what it meets: an emissive voxel (shared with the hints by the balance heuristic) or the environment. So
-// light that was scattered 1 to bounces + 1 times is counted, from every kind of source.
+// it adds its share of what it meets: an emissive voxel, the sun's disc or the environment. So light that was scattered
+// 1 to bounces + 1 times is counted, from every kind of source.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,7 +11,6 @@
 #include "lib/features.glsl"
 #include "lib/lights.glsl"
 #include "lib/modulation.glsl"
-#include "lib/random.glsl"
 #include "lib/voxel_encoding.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -28,6 +27,12 @@ uniform texture3D voxels_normal;
 uniform texture3D voxels_material;
 uniform texture3D distance;
 uniform writeonly image2D out_radiance;
+uniform writeonly image2D out_diffuse;
+uniform writeonly image2D out_specular;
+
+layout(constant_id = 0) const bool radiance_wanted = true;
+layout(constant_id = 1) const bool diffuse_wanted = true;
+layout(constant_id = 2) const bool specular_wanted = true;
 
 layout(push_constant) uniform Params {
   uint paths;
@@ -37,6 +42,9 @@ layout(push_constant) uniform Params {
 
 // Voxel normals are 0.8 degrees off and tangents up to 10: a sharper lobe would only turn that into speckle.
 const float kVoxelMinimumAlpha = 0.03;
+
+// Is there light that the last ray of a path could meet?
+const bool kRaysFindLight = has_emissive || has_environment || has_sun;
 
 PathVertex surface_vertex(Grid grid, ivec2 pixel) {
   PathVertex vertex;
@@ -77,34 +85,17 @@ PathVertex voxel_vertex(Grid grid, MarchHit hit, vec3 origin, vec3 direction, Vo
   return vertex;
 }
 
-// Radiance of an emissive voxel, weighted against the chance that a hint had found it.
-vec3 voxel_emission(VoxelSurface surface, vec3 direction, float distance_squared, BsdfSample scatter) {
-  if (!has_emissive || surface.emission == 0u) return vec3(0.0);
-  Emission emission = lights.emissions[surface.emission];
-  float cosine = -dot(surface.normal, direction);
-  if (emission.sides.x > 0.5) cosine = abs(cosine);
-  if (cosine <= 0.0) return vec3(0.0);
-  if (scatter.mirror) return emission.radiance.rgb;
-  return emission.radiance.rgb * balance_weight(scatter.pdf, hint_pdf(surface.emission, distance_squared, cosine));
-}
-
-vec3 trace_path(Grid grid, PathVertex vertex, RandomKey key) {
+// Light that arrives at vertex 0 along the scattered ray.
+vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey key) {
   vec3 radiance = vec3(0.0);
   vec3 throughput = vec3(1.0);
   float least_alpha = kVoxelMinimumAlpha;
-  for (uint bounce = 0u; bounce <= bounces; ++bounce) {
-    vec4 light_random = random4(key, bounce, kDimensionLight);
-    radiance += throughput * direct_light(grid, distance, voxels_material, vertex, light_random);
-    // The last ray only looks for light, so there must be some to find.
-    if (bounce == bounces && !has_emissive && !has_environment && !has_sun) break;
-    BsdfSample scatter = bsdf_sample(vertex.bsdf, vertex.incoming, random4(key, bounce, kDimensionScatter).xyz);
+  for (uint bounce = 1u;; ++bounce) {
     vec3 direction = to_world(vertex.basis, scatter.direction);
-    throughput *= scatter.weight;
-    if (throughput == vec3(0.0) || dot(direction, vertex.geometric_normal) <= 0.0) break;
-    MarchHit hit = march(distance, vertex.origin, direction, 1e30);
+    if (dot(direction, vertex.geometric_normal) <= 0.0) break;
+    MarchHit hit = march_ray(distance, vertex.origin, direction, 1e30);
     if (!hit.hit) {
-      radiance += throughput * environment_radiance(direction);
-      if (scatter.mirror) radiance += throughput * sun_disc_radiance(direction);
+      radiance += throughput * (environment_radiance(direction) + sun_hit(direction, scatter));
       break;
     }
     VoxelSurface surface =
@@ -114,28 +105,54 @@ vec3 trace_path(Grid grid, PathVertex vertex, RandomKey key) {
     least_alpha = max(least_alpha, min(scatter.roughness, regularization));
     vertex = voxel_vertex(grid, hit, vertex.origin, direction, surface, least_alpha);
     vec3 path = vertex.position - from;
-    radiance += throughput * voxel_emission(surface, direction, dot(path, path), scatter);
+    radiance += throughput * hint_emitter_hit(surface.emission, surface.normal, direction, dot(path, path), scatter);
+    if (bounce > bounces) break;
+    PerLobe direct = direct_light(grid, distance, voxels_material, vertex, key, bounce);
+    radiance += throughput * (direct.diffuse + direct.specular);
+    if (bounce == bounces && !kRaysFindLight) break;
+    scatter = bsdf_sample(vertex.bsdf, vertex.incoming, random4(key, bounce, kDimensionScatter).xyz);
+    throughput *= scatter.weight;
+    if (throughput == vec3(0.0)) break;
   }
   return radiance;
 }
+
+// Light that each lobe of the first hit scatters to the viewer.
+PerLobe trace_path(Grid grid, PathVertex first, RandomKey key) {
+  PerLobe light = direct_light(grid, distance, voxels_material, first, key, 0u);
+  if (bounces == 0u && !kRaysFindLight) return light;
+  BsdfSample scatter = bsdf_sample(first.bsdf, first.incoming, random4(key, 0u, kDimensionScatter).xyz);
+  if (scatter.weight == vec3(0.0)) return light;
+  vec3 incoming = trace_incoming(grid, first, scatter, key);
+  light.diffuse += max(scatter.weight - scatter.specular_weight, vec3(0.0)) * incoming;
+  light.specular += scatter.specular_weight * incoming;
+  return light;
+}
+
+// Nothing that is not a number may reach the filters, which would spread it; infinities end at half's largest.
+vec3 bounded(vec3 light) { return is_finite(light) ? min(light, vec3(65504.0)) : vec3(0.0); }
 
 void main() {
   ivec2 size = textureSize(surface_position, 0);
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, size))) return;
   bool lit = texelFetch(surface_position, pixel, 0).w > 0.0 && texelFetch(surface_emission, pixel, 0).w < 0.5;
-  vec3 sum = vec3(0.0);
+  vec3 radiance = vec3(0.0);
+  PerLobe lobes = kNoLight;
   if (lit) {
     Grid grid = scene_grid(textureSize(distance, 0));
     PathVertex first = surface_vertex(grid, pixel);
-    vec3 modulation = modulation_color(first.bsdf, first.incoming.z);
+    float cosine = first.incoming.z;
     RandomKey key = RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u);
     for (key.path = 0u; key.path < paths; ++key.path) {
-      vec3 radiance = trace_path(grid, first, key);
-      // Nothing that is not a number may reach the filters, which would spread it; infinities end at half's largest.
-      sum += is_finite(radiance) ? min(radiance / modulation, vec3(65504.0)) : vec3(0.0);
+      PerLobe light = trace_path(grid, first, key);
+      radiance += bounded((light.diffuse + light.specular) / modulation_color(first.bsdf, cosine));
+      lobes.diffuse += bounded(light.diffuse / diffuse_modulation(first.bsdf, cosine));
+      lobes.specular += bounded(light.specular / specular_modulation(first.bsdf, cosine));
     }
-    sum /= float(paths);
   }
-  imageStore(out_radiance, pixel, vec4(sum, lit ? 1.0 : 0.0));
+  float coverage = lit ? 1.0 : 0.0;
+  if (radiance_wanted) imageStore(out_radiance, pixel, vec4(radiance / float(paths), coverage));
+  if (diffuse_wanted) imageStore(out_diffuse, pixel, vec4(lobes.diffuse / float(paths), coverage));
+  if (specular_wanted) imageStore(out_specular, pixel, vec4(lobes.specular / float(paths), coverage));
 }

@@ -59,8 +59,10 @@ FrameBlock make_frame_block(const scene::Scene& scene, const FrameInputs& inputs
   block.scene_min = glm::vec4(scene.bounds.min, 0);
   block.scene_max = glm::vec4(scene.bounds.max, 0);
   if (scene.sun) {
-    block.sun_direction = glm::vec4(scene.sun->direction, std::cos(scene.sun->angular_radius));
-    block.sun_irradiance = glm::vec4(scene.sun->irradiance, 0);
+    // 1 - cosine without the cancellation that would leave two digits of it for the real sun.
+    const double half_sine = std::sin(0.5 * static_cast<double>(scene.sun->angular_radius));
+    block.sun_direction = glm::vec4(scene.sun->direction, 0);
+    block.sun_irradiance = glm::vec4(scene.sun->irradiance, 2 * half_sine * half_sine);
   }
   block.environment = glm::vec4(scene.environment.radiance, scene.environment.rgb.empty() ? 0 : 1);
   const auto triangles = static_cast<uint32_t>(scene.triangles.size());

@@ -14,9 +14,19 @@
 #include "lib/reflectance.glsl"
 #include "lib/ward.glsl"
 
+// Something for the base and for the lobe over it.
+struct PerLobe {
+  vec3 diffuse;
+  vec3 specular;
+};
+
+PerLobe scaled(PerLobe x, vec3 factor) { return PerLobe(x.diffuse * factor, x.specular * factor); }
+PerLobe sum_of(PerLobe x, PerLobe y) { return PerLobe(x.diffuse + y.diffuse, x.specular + y.specular); }
+
 struct BsdfSample {
   vec3 direction;
   vec3 weight;   // f cos / pdf; 0: the path ends
+  vec3 specular_weight;   // the part of it that the specular lobe scatters
   float pdf;     // [sr^-1], of all lobes together; meaningless for a mirror
   bool mirror;   // the direction has no density: no other strategy could have found it
   float roughness;   // of the lobe that was picked: the larger alpha, 1 for the base
@@ -28,13 +38,19 @@ vec3 diffuse_evaluate(Bsdf bsdf, float i_z, float o_z) {
   return diffuse_albedo(bsdf, i_z) * (outgoing / kPi);
 }
 
-// f(i, o) [sr^-1] without the cosine. A mirror's lobe is left out: only sampling finds it.
-vec3 bsdf_evaluate(Bsdf bsdf, vec3 i, vec3 o) {
-  if (!ward_reflects(i.z, o.z)) return vec3(0.0);
-  vec3 f = diffuse_evaluate(bsdf, i.z, o.z);
+// f(i, o) [sr^-1] of each lobe without the cosine. A mirror's lobe is left out: only sampling finds it.
+PerLobe bsdf_evaluate_lobes(Bsdf bsdf, vec3 i, vec3 o) {
+  PerLobe f = PerLobe(vec3(0.0), vec3(0.0));
+  if (!ward_reflects(i.z, o.z)) return f;
+  f.diffuse = diffuse_evaluate(bsdf, i.z, o.z);
   if (has_specular && !ward_is_mirror(bsdf.alpha))
-    f += specular_fresnel(bsdf, dot(i, normalize(i + o))) * ward_evaluate(i, o, bsdf.alpha);
+    f.specular = specular_fresnel(bsdf, dot(i, normalize(i + o))) * ward_evaluate(i, o, bsdf.alpha);
   return f;
+}
+
+vec3 bsdf_evaluate(Bsdf bsdf, vec3 i, vec3 o) {
+  PerLobe f = bsdf_evaluate_lobes(bsdf, i, o);
+  return f.diffuse + f.specular;
 }
 
 // Density with which bsdf_sample picks o [sr^-1], mirrors left out.
@@ -54,7 +70,7 @@ vec3 sample_cosine_hemisphere(vec2 u) {
 
 // One direction from the mixture of both lobes. `u`: three uniform numbers.
 BsdfSample bsdf_sample(Bsdf bsdf, vec3 i, vec3 u) {
-  BsdfSample result = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, 1.0);
+  BsdfSample result = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), vec3(0.0), 0.0, false, 1.0);
   if (i.z <= kWardMinimumCosine) return result;
   float specular = has_specular ? specular_probability(bsdf, i.z) : 0.0;
   bool pick_specular = u.x < specular;
@@ -62,6 +78,7 @@ BsdfSample bsdf_sample(Bsdf bsdf, vec3 i, vec3 u) {
   if (pick_specular && ward_is_mirror(bsdf.alpha)) {
     result.direction = vec3(-i.xy, i.z);
     result.weight = specular_fresnel(bsdf, i.z) / specular;
+    result.specular_weight = result.weight;
     result.mirror = true;
     return result;
   }
@@ -69,14 +86,17 @@ BsdfSample bsdf_sample(Bsdf bsdf, vec3 i, vec3 u) {
   result.direction = o;
   if (!ward_reflects(i.z, o.z)) return result;
   result.pdf = (1.0 - specular) * o.z / kPi;
-  vec3 reflected = diffuse_evaluate(bsdf, i.z, o.z) * o.z;
+  vec3 diffuse = diffuse_evaluate(bsdf, i.z, o.z) * o.z;
+  vec3 lobe = vec3(0.0);
   if (has_specular && !ward_is_mirror(bsdf.alpha)) {
     float lobe_pdf = ward_pdf(i, o, bsdf.alpha);
     result.pdf += specular * lobe_pdf;
     // The lobe's value by its weight: one exponential for both.
-    reflected += specular_fresnel(bsdf, dot(i, normalize(i + o))) * (ward_weight(i, o, bsdf.alpha) * lobe_pdf);
+    lobe = specular_fresnel(bsdf, dot(i, normalize(i + o))) * (ward_weight(i, o, bsdf.alpha) * lobe_pdf);
   }
-  if (result.pdf > 0.0) result.weight = reflected / result.pdf;
+  if (!(result.pdf > 0.0)) return result;
+  result.weight = (diffuse + lobe) / result.pdf;
+  result.specular_weight = lobe / result.pdf;
   return result;
 }
 

@@ -31,7 +31,7 @@ vec2 clip_to_grid(vec3 origin, vec3 direction, vec3 size) {
 
 // First occupied voxel at t = 0, 1, 2, … up to `end`. `precise`: positions must not depend on how a compiler fuses
 // operations, or images would differ between devices.
-MarchHit march(texture3D distance_field, vec3 origin, vec3 direction, float end) {
+MarchHit march_ray(texture3D distance_field, vec3 origin, vec3 direction, float end) {
   ivec3 size = textureSize(distance_field, 0);
   vec2 inside = clip_to_grid(origin, direction, vec3(size));
   float last = min(end, inside.y + 1.0);

@@ -29,8 +29,13 @@ vec3 facing_normal(vec3 normal, vec3 to_viewer) {
   return cosine >= least ? normal : normalize(normal + to_viewer * (least - cosine));
 }
 
-// Balance heuristic for one sample of each of two strategies. The ratio form cannot overflow.
+// Share of a strategy of density `pdf` beside one of density `other`, one sample of each, by the balance and the power
+// heuristic (Veach 1997, section 9.2). Ratios, because squares overflow.
 float balance_weight(float pdf, float other) { return pdf > 0.0 ? 1.0 / (1.0 + other / pdf) : 0.0; }
+float power_weight(float pdf, float other) {
+  float ratio = other / pdf;
+  return pdf > 0.0 ? 1.0 / (1.0 + ratio * ratio) : 0.0;
+}
 
 // Uniform direction in the cone around `axis` with half angle acos(cosine). 1 - cosine is taken from the caller so that
 // small cones keep their precision.

@@ -18,8 +18,8 @@ layout(std140) uniform FrameBlock {
   uvec4 ids;               // x: frame index, y: seed, z: number of earlier frames that histories hold, w: unused
   vec4 scene_min;          // bounds over all frames [m]; w: unused
   vec4 scene_max;
-  vec4 sun_direction;      // xyz: unit direction the light travels in; w: cosine of the angular radius
-  vec4 sun_irradiance;     // rgb on a surface that faces the sun [W m^-2]
+  vec4 sun_direction;      // xyz: unit direction the light travels in; w: unused
+  vec4 sun_irradiance;     // rgb on a surface that faces the sun [W m^-2]; w: 1 - cosine of the angular radius
   vec4 environment;        // rgb: radiance, or the scale of environment_map [W m^-2 sr^-1]
   uvec4 counts;            // x: static triangles, y: dynamic triangles, z: hints, w: punctual lights
 } frame;

@@ -78,6 +78,16 @@ TEST(FrameBlock, OldestKnownViewStandsForAgesBefore) {
   EXPECT_EQ(block.eye[kHistoryLimit - 1].x, 2);
 }
 
+TEST(FrameBlock, SmallSunKeepsItsDigits) {
+  scene::Scene scene;
+  scene.sun = scene::Sun{{0, -1, 0}, glm::vec3(1), 0.00465303f};  // 0.2666 degrees
+  FrameInputs inputs;
+  inputs.views = {view_of(camera_at({1, 2, 3}, {-2, 0.5f, 0}), {640, 480, 1}, kRoom)};
+  const double angle = 0.00465303;  // 1 - cos = angle^2 / 2 - angle^4 / 24 + …
+  const double expected = angle * angle / 2 - std::pow(angle, 4) / 24;
+  EXPECT_NEAR(static_cast<double>(make_frame_block(scene, inputs).sun_irradiance.w) / expected, 1, 1e-6);
+}
+
 TEST(FrameBlock, InverseUndoesTheProjection) {
   const scene::Scene scene;
   FrameInputs inputs;

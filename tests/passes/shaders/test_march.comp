@@ -26,7 +26,7 @@ void main() {
   vec3 origin = (random4(key, 0u, 0u).xyz * 1.5 - 0.25) * size;
   vec3 direction = normalize(random4(key, 0u, 1u).xyz - 0.5);
   if (((pixel.x + pixel.y) & 7) == 0) direction = vec3(0.0, (pixel.x & 1) == 0 ? 1.0 : -1.0, 0.0);
-  MarchHit hit = march(distance, origin, direction, end);
+  MarchHit hit = march_ray(distance, origin, direction, end);
   imageStore(out_origin, pixel, vec4(origin, 0.0));
   imageStore(out_direction, pixel, vec4(direction, 0.0));
   imageStore(out_hit, pixel, vec4(vec3(hit.voxel), hit.hit ? hit.t : -1.0));
