@@ -22,9 +22,11 @@ struct RenderOptions {
   std::filesystem::path out;
   GraphOptions changes;
   std::string camera;
+  std::filesystem::path camera_path;
   Range frames;
   uint32_t seed = 0;
   double frames_per_second = 30;
+  std::string dump_format = "exr";
   std::string device;
   bool validate = false;
 };
@@ -35,6 +37,8 @@ run::RenderRequest make_request(const RenderOptions& options, const std::vector<
   request.scene = options.scene;
   request.link = options.changes.link_options();
   request.camera = options.camera;
+  request.camera_path = options.camera_path;
+  request.dump_format = options.dump_format == "npy" ? run::DumpFormat::npy : run::DumpFormat::exr;
   request.seed = options.seed;
   request.first_frame = options.frames.first;
   request.last_frame = options.frames.last;
@@ -102,6 +106,8 @@ void add_render_command(Command& program, const CommandContext& context, const s
   command.option("--camera", options->camera, "Camera of the scene by name; the first one unless given")
       .placeholder("NAME")
       .group("Scene and frames");
+  command.option("--camera-path", options->camera_path, "Keyframes that the camera follows instead (JSON)")
+      .group("Scene and frames");
   command.option("--frames", options->frames, "Frames to render, one after another; both ends included")
       .check(check_frames)
       .group("Scene and frames");
@@ -110,6 +116,8 @@ void add_render_command(Command& program, const CommandContext& context, const s
       .group("Scene and frames");
   command.option("--seed", options->seed, "Seed of all random numbers").group("Scene and frames");
   options->changes.add_to(command);
+  command.option("--dump-format", options->dump_format, "How --dump writes images: OpenEXR, or NumPy arrays (y, x, c)")
+      .choices({"exr", "npy"});
   command.option("-o,--out", options->out, "Run folder, made if missing")
       .placeholder("DIR")
       .default_text("out/ and the graph file's name");

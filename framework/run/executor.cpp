@@ -15,6 +15,7 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
       readback_(device, plan_),
       scene_(device, scene,
              {.camera = options.camera,
+              .camera_path = options.camera_path,
               .view = plan_.graph.view,
               .seed = options.seed,
               .frames_per_second = options.frames_per_second}),
@@ -29,11 +30,11 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
 }
 
 FrameResult Executor::run_frame(uint32_t frame) {
-  scene_.prepare(frame);
+  const FrameConditions conditions = scene_.prepare(frame);
   descriptors_.reset();
   device_.run_commands([&](VkCommandBuffer commands) { record_frame(commands); });
   ++frame_count_;
-  return collect(frame);
+  return collect(frame, conditions);
 }
 
 void Executor::record_frame(VkCommandBuffer commands) {
@@ -77,9 +78,9 @@ void Executor::record_copies(VkCommandBuffer commands, const std::vector<Copy>& 
   }
 }
 
-FrameResult Executor::collect(uint32_t frame) const {
+FrameResult Executor::collect(uint32_t frame, const FrameConditions& conditions) const {
   const Graph& graph = plan_.graph;
-  FrameResult result{.frame = frame, .outputs = {}, .captures = {}, .times = {}};
+  FrameResult result{.frame = frame, .conditions = conditions, .outputs = {}, .captures = {}, .times = {}};
   for (const GraphOutput& output : graph.outputs)
     result.outputs.push_back({output.name, readback_.fetch(output.value, output.age)});
   for (const ValueId capture : graph.captures)

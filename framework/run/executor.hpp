@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "framework/gpu/device.hpp"
@@ -18,7 +19,8 @@ namespace lightloom::run {
 
 struct ExecutorOptions {
   ShaderFolders shaders;
-  std::string camera;  ///< empty: the scene's first
+  std::string camera;                                           ///< empty: the scene's first
+  std::optional<scene::CameraPath> camera_path = std::nullopt;  ///< moves the camera instead of what the scene says
   uint32_t seed = 0;
   double frames_per_second = 30;  ///< animation time of frame f is f / frames_per_second
 };
@@ -43,7 +45,7 @@ class Executor {
   void record_frame(VkCommandBuffer commands);
   void record_timestamp(VkCommandBuffer commands, uint32_t query) const;
   void record_copies(VkCommandBuffer commands, const std::vector<Copy>& copies) const;
-  [[nodiscard]] FrameResult collect(uint32_t frame) const;
+  [[nodiscard]] FrameResult collect(uint32_t frame, const FrameConditions& conditions) const;
 
   gpu::Device& device_;
   Plan plan_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/image/host_image.hpp"
+#include "framework/run/frame_state.hpp"
 
 namespace lightloom::run {
 
@@ -19,9 +20,17 @@ struct PassTime {
   double milliseconds = 0;  ///< device time between timestamps around the pass; negative where the device has none
 };
 
+/// Under which conditions a frame was made.
+struct FrameConditions {
+  double time = 0;              ///< of the scene [s]
+  uint32_t history_length = 0;  ///< earlier frames that the history rings held
+  View view;
+};
+
 /// All that one frame gives to the host.
 struct FrameResult {
   uint32_t frame = 0;
+  FrameConditions conditions;
   std::vector<NamedImage> outputs;   ///< in the order of the graph's outputs
   std::vector<NamedImage> captures;  ///< in the order of the plan's captures
   std::vector<PassTime> times;       ///< in execution order

@@ -21,8 +21,27 @@ Json remarks(const std::vector<PassRemark>& list) {
   return result;
 }
 
-Json vector_json(const glm::vec3& vector) {
-  return Json::array({vector.x, vector.y, vector.z});
+template <int N, typename T>
+Json vector_json(const glm::vec<N, T>& vector) {
+  Json result = Json::array();
+  for (int i = 0; i < N; ++i) result.push_back(vector[i]);
+  return result;
+}
+
+Json bounds_json(const scene::Bounds& bounds) {
+  return {{"min", vector_json(bounds.min)}, {"max", vector_json(bounds.max)}};
+}
+
+Json key_json(const scene::CameraKey& key) {
+  Json result = {{"time", key.time}, {"position", vector_json(key.position)}};
+  if (const auto* target = std::get_if<glm::dvec3>(&key.aim)) {
+    result["target"] = vector_json(*target);
+  } else {
+    const auto& turn = std::get<glm::dquat>(key.aim);
+    result["rotation"] = {turn.x, turn.y, turn.z, turn.w};
+  }
+  if (key.vertical_fov) result["vertical_fov_degrees"] = glm::degrees(*key.vertical_fov);
+  return result;
 }
 
 }  // namespace
@@ -52,8 +71,29 @@ Json scene_record(const scene::Scene& scene) {
           {"vertices", scene.vertices.size()},
           {"materials", scene.materials.size()},
           {"images", scene.images.size()},
-          {"bounds", {{"min", vector_json(scene.bounds.min)}, {"max", vector_json(scene.bounds.max)}}},
+          {"bounds", bounds_json(scene.bounds)},
           {"features", features}};
+}
+
+Json camera_path_record(const std::optional<scene::CameraPath>& path) {
+  if (!path) return nullptr;
+  Json keys = Json::array();
+  for (const scene::CameraKey& key : path->keys) keys.push_back(key_json(key));
+  return {{"file", path->file.generic_string()},
+          {"interpolation", to_string(path->interpolation)},
+          {"up", vector_json(path->up)},
+          {"keyframes", keys}};
+}
+
+Json frame_record(const FrameResult& frame, uint32_t seed, const scene::Bounds& bounds) {
+  const glm::mat4 rows = glm::transpose(frame.conditions.view.view_projection);
+  return {{"frame", frame.frame},
+          {"time", frame.conditions.time},
+          {"seed", seed},
+          {"history_length", frame.conditions.history_length},
+          {"view_projection", {vector_json(rows[0]), vector_json(rows[1]), vector_json(rows[2]), vector_json(rows[3])}},
+          {"eye", vector_json(frame.conditions.view.eye)},
+          {"scene_bounds", bounds_json(bounds)}};
 }
 
 Json graph_record(const Plan& plan) {

@@ -1,17 +1,24 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "framework/gpu/device.hpp"
 #include "framework/graph/plan.hpp"
 #include "framework/run/frame_result.hpp"
+#include "framework/scene/camera_path.hpp"
 #include "framework/scene/scene.hpp"
 
 namespace lightloom::run {
 
 [[nodiscard]] nlohmann::ordered_json device_record(const gpu::DeviceInfo& info);
 [[nodiscard]] nlohmann::ordered_json scene_record(const scene::Scene& scene);
+/// File, interpolation and keyframes; null without a path.
+[[nodiscard]] nlohmann::ordered_json camera_path_record(const std::optional<scene::CameraPath>& path);
+/// Number, time [s], earlier frames in the histories, seed, bounds of the scene [m]; view_projection as rows, so that
+/// clip = view_projection * (x, y, z, 1) with Vulkan's axes; eye as in shaders/lib/scene.glsl.
+[[nodiscard]] nlohmann::ordered_json frame_record(const FrameResult& frame, uint32_t seed, const scene::Bounds& bounds);
 /// Name, hash of the plan, sizes, params, outputs, what was culled and bypassed, memory.
 [[nodiscard]] nlohmann::ordered_json graph_record(const Plan& plan);
 /// One entry a pass in execution order: name, type, version, params, time of each frame and their median [ms]; times

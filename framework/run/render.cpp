@@ -24,7 +24,8 @@ struct Progress {
 };
 
 Json run_record(const RenderRequest& request, const Executor& executor, const scene::Scene& scene,
-                const gpu::Device& device, const Progress& progress, const std::vector<std::string>& warnings) {
+                const std::optional<scene::CameraPath>& path, const gpu::Device& device, const Progress& progress,
+                const std::vector<std::string>& warnings) {
   Json record;
   record["lightloom"] = version();
   record["commit"] = commit();
@@ -33,9 +34,11 @@ Json run_record(const RenderRequest& request, const Executor& executor, const sc
   record["graph"]["file"] = request.graph.generic_string();
   record["scene"] = scene_record(scene);
   record["camera"] = scene.cameras[find_camera(scene, request.camera)].name;
+  record["camera_path"] = camera_path_record(path);
   record["seed"] = request.seed;
   record["frames"] = {{"first", request.first_frame}, {"last", request.last_frame}};
   record["frames_per_second"] = request.frames_per_second;
+  record["dump_format"] = to_string(request.dump_format);
   record["device"] = device_record(device.info());
   record["validation"] = device.validating();
   record["value_memory_bytes"] = executor.value_bytes();
@@ -45,7 +48,7 @@ Json run_record(const RenderRequest& request, const Executor& executor, const sc
   return record;
 }
 
-Progress render_frames(const RenderRequest& request, Executor& executor, RunFolder& folder,
+Progress render_frames(const RenderRequest& request, const scene::Scene& scene, Executor& executor, RunFolder& folder,
                        const FrameCallback& on_frame) {
   Progress progress;
   const uint32_t total = request.last_frame - request.first_frame + 1;
@@ -55,7 +58,7 @@ Progress render_frames(const RenderRequest& request, Executor& executor, RunFold
     const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
     progress.wall_milliseconds.push_back(elapsed.count());
     progress.pass_times.push_back(result.times);
-    folder.write_frame(executor.plan().graph, result);
+    folder.write_frame(executor.plan().graph, result, frame_record(result, request.seed, scene.bounds));
     if (on_frame) on_frame(done + 1, total);
   }
   return progress;
@@ -81,23 +84,26 @@ std::vector<std::filesystem::path> pictures(const RunFolder& folder) {
 bool render(const RenderRequest& request, const PassRegistry& registry, const FrameCallback& on_frame,
             Diagnostics& diagnostics, RenderSummary& summary) {
   const scene::Scene scene = scene::load_scene(request.scene);
+  std::optional<scene::CameraPath> path;
+  if (!request.camera_path.empty()) path = scene::read_camera_path(request.camera_path);
   std::optional<Plan> plan = compile_graph(request.graph, registry, request.link, &scene, diagnostics);
   if (!plan) return false;
   gpu::Device device(request.device);
   Executor executor(device, std::move(*plan), scene,
                     {.shaders = request.shaders,
                      .camera = request.camera,
+                     .camera_path = path,
                      .seed = request.seed,
                      .frames_per_second = request.frames_per_second});
-  RunFolder folder(request.out);
-  const Progress progress = render_frames(request, executor, folder, on_frame);
+  RunFolder folder(request.out, request.dump_format);
+  const Progress progress = render_frames(request, scene, executor, folder, on_frame);
   summary.folder = folder.path();
   summary.images = pictures(folder);
   summary.warnings = scene.warnings;
   for (const std::vector<std::string>& more : {executor.scene_warnings(), validation_warnings(device)})
     summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
   summary.milliseconds_per_frame = median(progress.wall_milliseconds);
-  folder.finish(run_record(request, executor, scene, device, progress, summary.warnings));
+  folder.finish(run_record(request, executor, scene, path, device, progress, summary.warnings));
   return true;
 }
 

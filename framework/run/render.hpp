@@ -10,6 +10,7 @@
 #include "framework/gpu/device.hpp"
 #include "framework/graph/link.hpp"
 #include "framework/graph/pass_type.hpp"
+#include "framework/run/run_folder.hpp"
 #include "framework/run/shader_folders.hpp"
 
 namespace lightloom::run {
@@ -18,13 +19,15 @@ namespace lightloom::run {
 struct RenderRequest {
   std::filesystem::path graph;
   std::filesystem::path scene;
-  LinkOptions link;    ///< variants, disables, swaps, sets, captures (--dump), view size
-  std::string camera;  ///< empty: the scene's first
+  LinkOptions link;                   ///< variants, disables, swaps, sets, captures (--dump), view size
+  std::string camera;                 ///< empty: the scene's first
+  std::filesystem::path camera_path;  ///< keyframes that the camera follows; empty: it does what the scene says
   uint32_t seed = 0;
   uint32_t first_frame = 0;  ///< inclusive
   uint32_t last_frame = 0;   ///< inclusive
   double frames_per_second = 30;
   std::filesystem::path out;  ///< run folder, made if missing
+  DumpFormat dump_format = DumpFormat::exr;
   gpu::DeviceOptions device;
   ShaderFolders shaders = default_shader_folders();
   std::vector<std::string> command_line;  ///< for the provenance record

@@ -35,9 +35,47 @@ const Value& find_value(const Graph& graph, const std::string& name) {
   return *found;
 }
 
-/// Dumps and data outputs: volumes as NumPy arrays, images as EXR.
-std::string data_extension(const ImageDesc& desc) {
-  return desc.dimension == Dimension::d3 ? ".npy" : ".exr";
+/// Volumes do not fit into EXR.
+std::string data_extension(const ImageDesc& desc, DumpFormat format) {
+  return desc.dimension == Dimension::d3 || format == DumpFormat::npy ? ".npy" : ".exr";
+}
+
+std::string samples_text(ImageDesc desc) {
+  switch (image::channel_type(desc.format)) {
+    case image::ChannelType::unorm8:
+      return "uint8, 0..255 stands for 0..1";
+    case image::ChannelType::half:
+      return "float16";
+    case image::ChannelType::float32:
+      return "float32";
+    case image::ChannelType::uint32:
+      return "uint32";
+  }
+  return {};
+}
+
+/// What the port table says of the image.
+std::string doc_of(const Graph& graph, const Value& value) {
+  const auto pass = std::find_if(graph.passes.begin(), graph.passes.end(),
+                                 [&](const GraphPass& candidate) { return candidate.name == value.pass; });
+  if (pass == graph.passes.end() || pass->type == nullptr) return {};
+  const Port* port = pass->type->find_port(value.port, value.scratch ? Direction::scratch : Direction::out);
+  if (port == nullptr) return {};
+  for (const PortPart& part : port->parts)
+    if (part.name == value.part && !part.doc.empty()) return part.doc;
+  return port->doc;
+}
+
+nlohmann::ordered_json describe(const Graph& graph, const Value& value) {
+  return {{"doc", doc_of(graph, value)},
+          {"channels", image::default_channel_names(value.desc, value.port, value.part)},
+          {"format", format_info(value.desc.format).name},
+          {"samples", samples_text(value.desc)},
+          {"dimension", dimension_text(value.desc)},
+          {"width", value.desc.extent.width},
+          {"height", value.desc.extent.height},
+          {"depth", value.desc.extent.depth},
+          {"scratch", value.scratch}};
 }
 
 /// A relative path that stays inside its folder.
@@ -52,7 +90,11 @@ std::string frame_text(uint32_t frame) {
   return digits.size() >= 4 ? digits : std::string(4 - digits.size(), '0') + digits;
 }
 
-RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
+std::string to_string(DumpFormat format) {
+  return format == DumpFormat::npy ? "npy" : "exr";
+}
+
+RunFolder::RunFolder(fs::path folder, DumpFormat dump_format) : folder_(std::move(folder)), dump_format_(dump_format) {
   make_folder(folder_);
   remove_earlier_run();
 }
@@ -87,36 +129,40 @@ void RunFolder::write_image(fs::path relative, const image::HostImage& image,
   files_.push_back(std::move(relative));
 }
 
-void RunFolder::write_frame(const Graph& graph, const FrameResult& result) {
-  const std::string frame = frame_text(result.frame);
+void RunFolder::write_json(const fs::path& relative, const nlohmann::ordered_json& json) {
+  make_folder((folder_ / relative).parent_path());
+  write_file_atomically(folder_ / relative, json.dump(2) + "\n");
+  files_.push_back(relative);
+}
+
+void RunFolder::write_frame(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions) {
   for (const NamedImage& output : result.outputs) {
     const ImageDesc& desc = output.image.desc;
     const bool display = desc.dimension == Dimension::d2 && desc.format == Format::rgba8_unorm;
-    write_image(output.name + "." + frame + (display ? ".png" : data_extension(desc)), output.image,
-                image::default_channel_names(desc, output.name, {}));
+    write_image(
+        output.name + "." + frame_text(result.frame) + (display ? ".png" : data_extension(desc, DumpFormat::exr)),
+        output.image, image::default_channel_names(desc, output.name, {}));
   }
+  if (!result.captures.empty()) write_dumps(graph, result, conditions);
+}
+
+void RunFolder::write_dumps(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions) {
+  const fs::path frame = fs::path("dumps") / frame_text(result.frame);
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
   for (const NamedImage& capture : result.captures) {
     const Value& value = find_value(graph, capture.name);
-    write_image(fs::path("dumps") / frame / (capture.name + data_extension(value.desc)), capture.image,
+    write_image(frame / (capture.name + data_extension(value.desc, dump_format_)), capture.image,
                 image::default_channel_names(value.desc, value.port, value.part));
-    dumps_.push_back({{"frame", result.frame},
-                      {"value", capture.name},
-                      {"file", files_.back().generic_string()},
-                      {"format", format_info(value.desc.format).name},
-                      {"dimension", dimension_text(value.desc)},
-                      {"width", value.desc.extent.width},
-                      {"height", value.desc.extent.height},
-                      {"depth", value.desc.extent.depth},
-                      {"scratch", value.scratch}});
+    files[capture.name] = files_.back().generic_string();
+    if (!dumped_values_.contains(capture.name)) dumped_values_[capture.name] = describe(graph, value);
   }
+  write_json(frame / "frame.json", conditions);
+  dumped_frames_.push_back({{"frame", result.frame}, {"conditions", files_.back().generic_string()}, {"files", files}});
 }
 
 void RunFolder::finish(nlohmann::ordered_json record) {
-  if (!dumps_.empty()) {
-    const fs::path index = fs::path("dumps") / "index.json";
-    write_file_atomically(folder_ / index, dumps_.dump(2) + "\n");
-    files_.push_back(index);
-  }
+  if (!dumped_frames_.empty())
+    write_json(fs::path("dumps") / "index.json", {{"values", dumped_values_}, {"frames", dumped_frames_}});
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const fs::path& file : files_) files.push_back(file.generic_string());
   record["files"] = files;

@@ -10,18 +10,24 @@
 
 namespace lightloom::run {
 
+/// How 2D dumps are written; volumes are NumPy arrays in either case.
+enum class DumpFormat : uint8_t { exr, npy };
+[[nodiscard]] std::string to_string(DumpFormat format);
+
 /// The folder that a render leaves behind (design, section 5):
 ///   NAME.FFFF.png      2D outputs of 8 bits (display-ready), NAME.FFFF.exr other 2D outputs, .npy volumes
-///   dumps/FFFF/VALUE.exr | .npy, and dumps/index.json, which says what each of them is
+///   dumps/FFFF/VALUE.exr | .npy, dumps/FFFF/frame.json (camera and time), and dumps/index.json, which says what each
+///   of them is (docs/buffers.md)
 ///   run.json           provenance and times, and the list of all files of the run
 /// Each file appears whole or not at all. Files of an earlier run in the same folder, which its run.json lists, are
 /// removed first, so that no stale frame stays among new ones.
 class RunFolder {
  public:
   /// Throws Error(run_failed) where the folder cannot be made or written.
-  explicit RunFolder(std::filesystem::path folder);
+  explicit RunFolder(std::filesystem::path folder, DumpFormat dump_format = DumpFormat::exr);
 
-  void write_frame(const Graph& graph, const FrameResult& result);
+  /// Writes the outputs, and, if the frame has captures, these with `conditions` as frame.json beside them.
+  void write_frame(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions);
   /// Writes the index of the dumps and `record` as run.json, with the list of files added.
   void finish(nlohmann::ordered_json record);
 
@@ -31,12 +37,16 @@ class RunFolder {
 
  private:
   void remove_earlier_run() const;
+  void write_dumps(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions);
+  void write_json(const std::filesystem::path& relative, const nlohmann::ordered_json& json);
   void write_image(std::filesystem::path relative, const image::HostImage& image,
                    const std::vector<std::string>& channel_names);
 
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> files_;
-  nlohmann::ordered_json dumps_ = nlohmann::ordered_json::array();
+  DumpFormat dump_format_;
+  nlohmann::ordered_json dumped_values_ = nlohmann::ordered_json::object();  ///< by name
+  nlohmann::ordered_json dumped_frames_ = nlohmann::ordered_json::array();
 };
 
 /// Frame number in file names: four digits or more.

@@ -108,6 +108,18 @@ size_t find_camera(const scene::Scene& scene, const std::string& name) {
               "its cameras are " + names);
 }
 
+namespace {
+
+/// A path with a field of view needs a camera that has one.
+void check_path(const SceneResourceOptions& options, const scene::Camera& camera) {
+  if (options.camera_path && options.camera_path->keys.front().vertical_fov && !camera.perspective)
+    throw Error(ExitCode::invalid_input, options.camera_path->file.string() +
+                                             ": keyframes[0].vertical_fov_degrees is for perspective cameras, but '" +
+                                             camera.name + "' is orthographic");
+}
+
+}  // namespace
+
 SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene, SceneResourceOptions options)
     : scene_(scene),
       options_(std::move(options)),
@@ -120,6 +132,7 @@ SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene, S
       frame_block_(uniform_buffer(device, sizeof(FrameBlock), "frame block")),
       light_block_(uniform_buffer(device, sizeof(LightBlock), "light block")),
       staging_(device, kVertexOffset + dynamic_vertex_bytes(scene), 0, gpu::MemoryKind::upload, "frame inputs") {
+  check_path(options_, scene.cameras[camera_]);
   upload_geometry(device);
   upload_materials(device);
   upload_environment(device);
@@ -196,17 +209,20 @@ uint32_t SceneResources::fill_light_block(LightBlock& block, const scene::Pose& 
   return static_cast<uint32_t>(hints.size());
 }
 
-void SceneResources::prepare(uint32_t frame) {
-  const scene::Pose pose = scene::pose(scene_, frame / options_.frames_per_second);
-  const auto history_length = static_cast<uint32_t>(views_.size());
-  views_.push_front(view_of(pose.cameras.at(camera_), options_.view, scene_.bounds));
+FrameConditions SceneResources::prepare(uint32_t frame) {
+  const double time = frame / options_.frames_per_second;
+  const scene::Pose pose = scene::pose(scene_, time);
+  const uint32_t history_length = std::min(static_cast<uint32_t>(views_.size()), kHistoryLimit - 1);
+  scene::Camera camera = pose.cameras.at(camera_);
+  if (options_.camera_path) camera = scene::camera_on_path(*options_.camera_path, time, camera);
+  views_.push_front(view_of(camera, options_.view, scene_.bounds));
   if (views_.size() > kHistoryLimit) views_.pop_back();
 
   LightBlock lights{};
   const uint32_t hint_count = fill_light_block(lights, pose, frame);
   const FrameBlock block = make_frame_block(scene_, {.frame = frame,
                                                      .seed = options_.seed,
-                                                     .history_length = std::min(history_length, kHistoryLimit - 1),
+                                                     .history_length = history_length,
                                                      .views = {views_.begin(), views_.end()},
                                                      .hint_count = hint_count});
   const std::span<std::byte> staging = staging_.mapped();
@@ -215,6 +231,7 @@ void SceneResources::prepare(uint32_t frame) {
   if (!pose.dynamic_vertices.empty())
     std::memcpy(staging.data() + kVertexOffset, pose.dynamic_vertices.data(),
                 pose.dynamic_vertices.size() * sizeof(scene::Vertex));
+  return {.time = time, .history_length = history_length, .view = views_.front()};
 }
 
 void SceneResources::record_upload(VkCommandBuffer commands) const {

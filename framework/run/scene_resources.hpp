@@ -1,13 +1,16 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 
 #include "framework/gpu/buffer.hpp"
 #include "framework/gpu/image.hpp"
 #include "framework/gpu/samplers.hpp"
+#include "framework/run/frame_result.hpp"
 #include "framework/run/frame_state.hpp"
 #include "framework/run/scene_bindings.hpp"
+#include "framework/scene/camera_path.hpp"
 #include "framework/scene/lights.hpp"
 #include "framework/scene/scene.hpp"
 
@@ -18,6 +21,7 @@ namespace lightloom::run {
 
 struct SceneResourceOptions {
   std::string camera;
+  std::optional<scene::CameraPath> camera_path = std::nullopt;  ///< moves the camera instead of what the scene says
   Extent3 view;
   uint32_t seed = 0;
   double frames_per_second = 30;
@@ -31,7 +35,7 @@ class SceneResources {
 
   [[nodiscard]] const SceneBindings& bindings() const { return bindings_; }
   /// Poses the scene, draws light samples and fills the staging buffer. The frames prepared before are its history.
-  void prepare(uint32_t frame);
+  FrameConditions prepare(uint32_t frame);
   void record_upload(VkCommandBuffer commands) const;
   /// What had to be changed for the device, e.g. resampled textures.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }

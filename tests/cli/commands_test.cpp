@@ -201,6 +201,10 @@ TEST_F(Commands, a_render_that_cannot_begin_leaves_nothing) {
   EXPECT_THAT(err_, HasSubstr("nave"));
   EXPECT_EQ(run({"render", kGraph, "--scene", kScene, "--out", out, "--set", "nothing=1"}), 2);
   EXPECT_EQ(run({"render", kGraph, "--scene", kScene, "--out", out, "--device", "no such device"}), 4);
+  EXPECT_EQ(run({"render", kGraph, "--scene", kScene, "--out", out, "--camera-path", "no/such.json"}), 3);
+  EXPECT_EQ(run({"render", kGraph, "--scene", kScene, "--out", out, "--camera-path", file("path.json", "{}")}), 3);
+  EXPECT_THAT(err_, HasSubstr("path.json:1:1: lightloom_camera_path is missing"));
+  EXPECT_EQ(run({"render", kGraph, "--scene", kScene, "--out", out, "--dump-format", "png"}), 2);
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

@@ -5,12 +5,14 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
 #include "framework/image/exr.hpp"
+#include "framework/image/npy.hpp"
 #include "framework/image/png.hpp"
 #include "framework/run/compile_graph.hpp"
 #include "passes/registry.hpp"
@@ -152,7 +154,80 @@ TEST_F(Render, EveryValueOfEveryPassIsDumped) {
   }
   EXPECT_GT(expected, 30u);
   const nlohmann::json index = nlohmann::json::parse(read_text_file(folder_ / "watched/dumps/index.json"));
-  EXPECT_EQ(index.size(), expected);
+  EXPECT_EQ(index["values"].size(), expected);
+  EXPECT_EQ(index["frames"][0]["files"].size(), expected);
+  for (const auto& [name, value] : index["values"].items())
+    EXPECT_FALSE(value["doc"].get<std::string>().empty()) << name;
+}
+
+TEST_F(Render, DumpsHoldTheSameNumbersInBothFormats) {
+  RenderRequest exr = request("exr", 0);
+  exr.link.captures = {"gather.surface", "trace.radiance"};
+  RenderRequest npy = exr;
+  npy.out = folder_ / "npy";
+  npy.dump_format = DumpFormat::npy;
+  render_cleanly(exr);
+  render_cleanly(npy);
+  const std::map<std::string, std::vector<std::string>> values = {{"gather.surface.position", {"X", "Y", "Z", "W"}},
+                                                                  {"gather.surface.material", {"R", "G", "B", "A"}},
+                                                                  {"trace.radiance", {"R", "G", "B", "A"}}};
+  for (const auto& [name, channels] : values) {
+    const image::ExrImage one = image::read_exr(folder_ / "exr/dumps/0000" / (name + ".exr"));
+    const image::HostImage other = image::read_npy(folder_ / "npy/dumps/0000" / (name + ".npy"));
+    for (uint32_t channel = 0; channel < channels.size(); ++channel)
+      for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x)
+          ASSERT_EQ(one.at(x, y, channels[channel]), other.at(x, y, 0, channel)) << name << " " << channels[channel];
+  }
+}
+
+/// A pinhole's own arithmetic: distances along and across the line of sight over the tangent of half the field of view.
+glm::dvec2 project(const glm::dvec3& eye, const glm::dvec3& target, double vertical_fov, const glm::dvec3& point) {
+  const glm::dvec3 forward = glm::normalize(target - eye);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
+  const glm::dvec3 up = glm::cross(right, forward);
+  const glm::dvec3 away = point - eye;
+  const double scale = kHeight / (2 * glm::dot(away, forward) * std::tan(vertical_fov / 2));
+  return {kWidth * 0.5 + glm::dot(away, right) * scale, kHeight * 0.5 - glm::dot(away, up) * scale};
+}
+
+TEST_F(Render, TheCameraFollowsItsPathAndFramesRecordIt) {
+  std::ofstream(folder_ / "path.json") << R"({"lightloom_camera_path": 1, "interpolation": "linear", "keyframes": [
+    {"time": 0, "position": [-5, 2, 0], "target": [5, 2, 0], "vertical_fov_degrees": 60},
+    {"time": 0.1, "position": [-4, 2.5, 0.5], "target": [5, 1, 1], "vertical_fov_degrees": 40}]})";
+  RenderRequest moving = request("moving", 2);
+  moving.camera_path = folder_ / "path.json";
+  moving.dump_format = DumpFormat::npy;
+  moving.link.captures = {"gather.surface.position"};
+  render_cleanly(moving);
+  const nlohmann::json record = nlohmann::json::parse(read_text_file(folder_ / "moving/run.json"));
+  EXPECT_EQ(record["camera_path"]["keyframes"].size(), 2u);
+  for (uint32_t frame = 0; frame <= 2; ++frame) {
+    const double amount = frame / 3.0;  // 30 frames a second, 0.1 s
+    const glm::dvec3 eye(-5 + amount, 2 + 0.5 * amount, 0.5 * amount);
+    const glm::dvec3 target(5, 2 - amount, amount);
+    const double fov = glm::radians(60 - 20 * amount);
+    const fs::path dumps = folder_ / "moving/dumps" / frame_text(frame);
+    const nlohmann::json conditions = nlohmann::json::parse(read_text_file(dumps / "frame.json"));
+    EXPECT_NEAR(conditions["time"], frame / 30.0, 1e-12);
+    EXPECT_EQ(conditions["history_length"], frame);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(conditions["eye"][axis], eye[axis], 1e-5);
+    const image::HostImage position = image::read_npy(dumps / "gather.surface.position.npy");
+    for (uint32_t y = 0; y < kHeight; y += 5)
+      for (uint32_t x = 0; x < kWidth; x += 5) {
+        if (position.at(x, y, 0, 3) <= 0) continue;
+        const glm::dvec4 point(position.at(x, y, 0, 0), position.at(x, y, 0, 1), position.at(x, y, 0, 2), 1);
+        const glm::dvec2 seen = project(eye, target, fov, glm::dvec3(point));
+        EXPECT_NEAR(seen.x, x + 0.5, 0.01);
+        EXPECT_NEAR(seen.y, y + 0.5, 0.01);
+        glm::dvec4 clip(0);
+        for (int row = 0; row < 4; ++row)
+          for (int column = 0; column < 4; ++column)
+            clip[row] += conditions["view_projection"][row][column].get<double>() * point[column];
+        EXPECT_NEAR((clip.x / clip.w * 0.5 + 0.5) * kWidth, x + 0.5, 0.01);
+        EXPECT_NEAR((clip.y / clip.w * 0.5 + 0.5) * kHeight, y + 0.5, 0.01);
+      }
+  }
 }
 
 TEST_F(Render, TheSameRequestGivesTheSameBits) {

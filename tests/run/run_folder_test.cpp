@@ -68,29 +68,34 @@ TEST_F(RunFolderTest, WritesOutputsDumpsAndIndex) {
   result.captures = {{"gather.surface.id", small_image(Format::rg32_uint)},
                      {"merge.voxels.albedo", small_image(Format::rgba8_unorm, Dimension::d3)}};
   RunFolder folder(folder_);
-  folder.write_frame(graph_with({plane, volume}), result);
+  folder.write_frame(graph_with({plane, volume}), result, {{"time", 0.25}});
   folder.finish({{"lightloom", "test"}});
   for (const char* file : {"radiance.0007.exr", "image.0007.png", "dumps/0007/gather.surface.id.exr",
                            "dumps/0007/merge.voxels.albedo.npy", "dumps/index.json", "run.json"})
     EXPECT_TRUE(fs::is_regular_file(folder_ / file)) << file;
   std::ifstream stream(folder_ / "dumps/index.json");
   const nlohmann::json index = nlohmann::json::parse(stream);
-  ASSERT_EQ(index.size(), 2u);
-  EXPECT_EQ(index[1]["value"], "merge.voxels.albedo");
-  EXPECT_EQ(index[1]["depth"], 4);
+  ASSERT_EQ(index["values"].size(), 2u);
+  EXPECT_EQ(index["values"]["merge.voxels.albedo"]["depth"], 4);
+  EXPECT_EQ(index["values"]["gather.surface.id"]["channels"], nlohmann::json({"object", "material"}));
+  ASSERT_EQ(index["frames"].size(), 1u);
+  EXPECT_EQ(index["frames"][0]["frame"], 7);
+  EXPECT_EQ(index["frames"][0]["files"]["gather.surface.id"], "dumps/0007/gather.surface.id.exr");
+  std::ifstream conditions(folder_ / index["frames"][0]["conditions"].get<std::string>());
+  EXPECT_EQ(nlohmann::json::parse(conditions)["time"], 0.25);
 }
 
 TEST_F(RunFolderTest, RemovesTheFilesOfTheRunBeforeAndNoOthers) {
   {
     RunFolder folder(folder_);
-    folder.write_frame({}, outputs_only(0));
-    folder.write_frame({}, outputs_only(1));
+    folder.write_frame({}, outputs_only(0), {});
+    folder.write_frame({}, outputs_only(1), {});
     folder.finish({{"lightloom", "test"}});
   }
   std::ofstream(folder_ / "notes.txt") << "mine";
   RunFolder folder(folder_);
   EXPECT_FALSE(fs::exists(folder_ / "run.json")) << "a folder whose run is under way must not look finished";
-  folder.write_frame({}, outputs_only(0));
+  folder.write_frame({}, outputs_only(0), {});
   folder.finish({{"lightloom", "test"}});
   EXPECT_TRUE(fs::exists(folder_ / "image.0000.png"));
   EXPECT_FALSE(fs::exists(folder_ / "image.0001.png")) << "a stale frame";
