@@ -44,17 +44,6 @@ float ward_slope_density(vec3 h, vec2 a) {
   return exp(-dot(slope, slope)) / (kPi * a.x * a.y);
 }
 
-// f(i, o) [sr^-1]; symmetric bit by bit, because i and o enter only as sum and product. 0 at or below the horizon.
-float ward_evaluate(vec3 i, vec3 o, vec2 alpha) {
-  if (!ward_reflects(i.z, o.z)) return 0.0;
-  vec3 h = i + o;
-  float density = ward_slope_density(h, ward_alpha(alpha));
-  if (ward == kWard1992) return density * 0.25 * inversesqrt(i.z * o.z);
-  if (ward == kWardDur) return density * 0.25 / (i.z * o.z);
-  float z2 = h.z * h.z;
-  return density * dot(h, h) / (z2 * z2);
-}
-
 // Density of the chosen sampling, as a multiple of Walter's.
 float ward_density_ratio(vec3 h, vec2 a) {
   if (ward_sampling == kWardExact) return 1.0;
@@ -64,24 +53,38 @@ float ward_density_ratio(vec3 h, vec2 a) {
   return squared > 1e-30 ? a.x * a.y * (dot(scaled, scaled) / squared) : 1.0;
 }
 
+// The three functions below take h = i + o; who knows it better than by adding rounded directions may give it.
+
+// f(i, o) [sr^-1]; symmetric bit by bit, because i and o enter only as sum and product. 0 at or below the horizon.
+float ward_evaluate(float i_z, float o_z, vec3 h, vec2 alpha) {
+  if (!ward_reflects(i_z, o_z)) return 0.0;
+  float density = ward_slope_density(h, ward_alpha(alpha));
+  if (ward == kWard1992) return density * 0.25 * inversesqrt(i_z * o_z);
+  if (ward == kWardDur) return density * 0.25 / (i_z * o_z);
+  float z2 = h.z * h.z;
+  return density * dot(h, h) / (z2 * z2);
+}
+
 // Density of o [sr^-1] under ward_sample. Integrates to less than 1 over the hemisphere; the rest of the samples fall
 // below the horizon and carry nothing.
-float ward_pdf(vec3 i, vec3 o, vec2 alpha) {
-  if (!ward_reflects(i.z, o.z)) return 0.0;
-  vec3 h = i + o;
+float ward_pdf(float i_z, float o_z, vec3 h, vec2 alpha) {
+  if (!ward_reflects(i_z, o_z)) return 0.0;
   vec2 a = ward_alpha(alpha);
   return ward_slope_density(h, a) * ward_density_ratio(h, a) * dot(h, h) / (2.0 * h.z * h.z * h.z);
 }
 
 // f o.z / pdf; the exponential cancels. At most 2 for the bounded form under exact sampling.
-float ward_weight(vec3 i, vec3 o, vec2 alpha) {
-  if (!ward_reflects(i.z, o.z)) return 0.0;
-  vec3 h = i + o;
+float ward_weight(float i_z, float o_z, vec3 h, vec2 alpha) {
+  if (!ward_reflects(i_z, o_z)) return 0.0;
   float ratio = ward_density_ratio(h, ward_alpha(alpha));
-  if (ward == kWardBounded) return 2.0 * o.z / (h.z * ratio);
-  float cosines = h.z * h.z * h.z / (2.0 * dot(h, h) * ratio);   // (h.i) (h.n)^3 of the unit half vector
-  return ward == kWard1992 ? cosines * sqrt(o.z / i.z) : cosines / i.z;
+  if (ward == kWardBounded) return 2.0 * o_z / (h.z * ratio);
+  float cosines = h.z * h.z * h.z / (2.0 * dot(h, h));   // (h . i) h.z^3 for h of unit length
+  return (ward == kWard1992 ? sqrt(o_z / i_z) : 1.0 / i_z) * cosines / ratio;
 }
+
+float ward_evaluate(vec3 i, vec3 o, vec2 alpha) { return ward_evaluate(i.z, o.z, i + o, alpha); }
+float ward_pdf(vec3 i, vec3 o, vec2 alpha) { return ward_pdf(i.z, o.z, i + o, alpha); }
+float ward_weight(vec3 i, vec3 o, vec2 alpha) { return ward_weight(i.z, o.z, i + o, alpha); }
 
 // Unit half vector for two uniform numbers in [0, 1).
 vec3 ward_sample_half_vector(vec2 u, vec2 alpha) {
