@@ -17,9 +17,10 @@ PassType make_pattern() {
                   std::string("constant"),
                   {},
                   {},
-                  {"constant", "noise", "impulse", "normal", "object", "ramp", "frame", "spoilt"},
+                  {"constant", "noise", "impulse", "normal", "object", "ramp", "frame", "spoilt", "bump"},
                   "",
-                  "which"}};
+                  "which"},
+                 {"scale", ParamType::real, 1.0, {}, {}, {}, "", "factor on it"}};
   type.reads = FrameState::time | FrameState::seed | FrameState::camera;
   type.record = [](PassContext& context) { context.dispatch({"pattern.comp", context.output_extent("radiance"), {}}); };
   return type;

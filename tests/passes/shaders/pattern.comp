@@ -14,7 +14,8 @@ uniform utexture2D surface_id;
 uniform writeonly image2D out_radiance;
 
 layout(push_constant) uniform Params {
-  uint pattern;   // 0 constant, 1 noise, 2 impulse, 3 normal, 4 object, 5 ramp, 6 frame, 7 spoilt
+  uint pattern;   // 0 constant, 1 noise, 2 impulse, 3 normal, 4 object, 5 ramp, 6 frame, 7 spoilt, 8 bump
+  float scale;
 };
 
 vec3 value(ivec2 pixel, ivec2 size) {
@@ -25,6 +26,7 @@ vec3 value(ivec2 pixel, ivec2 size) {
   if (pattern == 5u) return vec3(float(pixel.x) / 16.0, float(pixel.y) / 16.0, 2.0);
   if (pattern == 6u) return vec3(float(frame.ids.x & 1u));
   if (pattern == 7u) return pixel == size / 2 ? vec3(uintBitsToFloat(0x7FC00000u)) : vec3(1.0);
+  if (pattern == 8u) return vec3(pixel == size / 2 ? 1.0078125 : 1.0);
   return vec3(0.25, 0.5, 2.0);
 }
 
@@ -33,5 +35,5 @@ void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, size))) return;
   bool background = texelFetch(surface_position, pixel, 0).w <= 0.0;
-  imageStore(out_radiance, pixel, vec4(value(pixel, size), background ? 0.0 : 1.0));
+  imageStore(out_radiance, pixel, vec4(scale * value(pixel, size), background ? 0.0 : 1.0));
 }
