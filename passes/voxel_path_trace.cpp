@@ -60,6 +60,11 @@ std::vector<Param> params() {
              "how its half vectors are drawn, both without a tangent function: Walter's distribution as a Gaussian of "
              "slopes; or with a uniform azimuth (the paper's approximation) and the density that belongs to it, which "
              "is as right but noisier the more the two alphas differ"),
+      choice(
+          "march", "cube_exit", {"sphere", "cube_exit", "dda"},
+          "how rays go through the grid: by steps as long as the distance to the nearest occupied voxel (sphere, the "
+          "paper's, which steps over corners); to the end of the empty cube around them (cube_exit) or from voxel to "
+          "voxel (dda), which both find every voxel that a ray touches"),
       choice("strategy", "mis", {"mis", "nee", "bsdf"},
              "what finds light that both next event estimation and scattered rays can find: both, sharing it (mis), or "
              "one of them alone; light without extent is always found by the former, light in mirrors by the latter"),
@@ -79,7 +84,7 @@ PassType make_voxel_path_trace() {
   type.doc =
       "Global illumination by paths that start at the G-buffer and go on through the voxel grid. Next event "
       "estimation towards light hints, the sun and punctual lights, combined with Ward importance sampling by "
-      "multiple importance sampling; rays are sphere-marched through the distance field (paper, section 2.2).";
+      "multiple importance sampling; rays march through the distance field (paper, section 2.2).";
   type.ports = ports();
   type.params = params();
   type.reads = FrameState::camera | FrameState::seed | FrameState::lights;

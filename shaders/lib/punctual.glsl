@@ -37,7 +37,7 @@ PerLobe punctual_light(Grid grid, texture3D distance_field, texture3D material, 
   PerLobe reflected = scaled(reflectance_towards(vertex, direction), arriving);
   if (is_black(reflected)) return kNoLight;
   vec3 target = world_to_grid(grid, light.position.xyz);
-  bool visible = directional ? !march_ray(distance_field, vertex.origin, direction, 1e30).hit
+  bool visible = directional ? !march_ray(distance_field, vertex.origin, direction, kFarAway).hit
                              : light_visible(distance_field, material, vertex.origin, target, 0u);
   if (!visible) return kNoLight;
   return reflected;

@@ -27,7 +27,7 @@ PerLobe sun_light(texture3D distance_field, PathVertex vertex, vec2 u) {
   vec3 direction = -frame.sun_direction.xyz;
   if (drop > 0.0) direction = sample_cone(direction, drop, u);
   PerLobe reflected = reflectance_towards(vertex, direction);
-  if (is_black(reflected) || march_ray(distance_field, vertex.origin, direction, 1e30).hit) return kNoLight;
+  if (is_black(reflected) || march_ray(distance_field, vertex.origin, direction, kFarAway).hit) return kNoLight;
   if (drop <= 0.0) return scaled(reflected, frame.sun_irradiance.rgb);
   return scaled(reflected, sun_radiance(drop) * light_sample_weight(sun_pdf(drop), scatter_pdf(vertex, direction)));
 }
