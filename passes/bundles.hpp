@@ -20,7 +20,10 @@ inline std::vector<PortPart> surface_parts() {
       {"albedo", Format::rgba16_sfloat, "rgb: base colour, linear; w: metallic"},
       {"material", Format::rgba16_sfloat, "Ward alpha along the tangent and across it; specular F0; specular F90"},
       {"emission", Format::rgba16_sfloat, "rgb: emitted radiance [W m^-2 sr^-1]; w: 1 if unlit"},
-      {"id", Format::rg32_uint, "object id + 1 (0: background); material id"},
+      {"id", Format::rgba32_uint,
+       "object id + 1 (0: background); material id; index of the triangle; weights of its corners b and c at the "
+       "point, "
+       "two 16-bit unorms, b in the low half"},
   };
 }
 

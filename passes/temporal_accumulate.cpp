@@ -3,6 +3,11 @@
 #include "passes/port_rows.hpp"
 
 namespace lightloom::passes {
+namespace {
+
+constexpr float kUnknownVariance = 1e4f;  // as in shaders/lib/variance.glsl
+
+}  // namespace
 
 PassType make_temporal_accumulate() {
   PassType type;
@@ -12,8 +17,18 @@ PassType make_temporal_accumulate() {
       "frame; frames in which it was hidden are left out; the age weight follows a Hermite curve that is flat for a "
       "Lambertian surface and keeps only the current frame for a mirror (paper, section 2.3).";
   Port radiance = image_output_like("radiance", Format::rgba32_sfloat, "radiance",
-                                    "rgb: accumulated radiance; a: sum of the weights (1 to `frames`)");
+                                    "rgb: accumulated radiance; a: sum of the weights (1 to `frames`), 0 where there "
+                                    "is nothing to accumulate");
   radiance.bypass = Bypass{"radiance", {}};
+  Port variance = image_output_like(
+      "variance", Format::r32_sfloat, "radiance",
+      "estimated variance of the luminance of the accumulated radiance: that of the accepted frames' weighted mean, "
+      "from those frames where they are worth at least 4, else from up to 5 x 5 alike pixels of the current frame; "
+      "10000 where it is unknown, 0 where there is nothing to accumulate");
+  variance.bypass = Bypass{"", {kUnknownVariance, 0, 0, 0}};
+  Port trail_id = history_input("trail_id", Format::rgba32_uint,
+                                "`surface.id` of the same frames; without it objects and materials are not told apart");
+  trail_id.optional = true;
   type.ports = {
       image_input("radiance", Format::rgba32_sfloat, "the current frame"),
       same_size_as("radiance", surface_input("surface", "G-buffer of the current frame")),
@@ -23,9 +38,20 @@ PassType make_temporal_accumulate() {
                    history_input("trail_position", Format::rgba32_sfloat, "`surface.position` of the same frames")),
       same_size_as("radiance",
                    history_input("trail_normal", Format::rgba16_sfloat, "`surface.normal` of the same frames")),
+      same_size_as("radiance", trail_id),
       radiance,
+      variance,
   };
   type.params = {
+      {"lobe",
+       ParamType::choice,
+       std::string("both"),
+       {},
+       {},
+       {"both", "diffuse", "specular"},
+       "",
+       "what the radiance holds, which decides how long it may be kept: `diffuse` light weighs all frames alike, "
+       "`specular` light weighs them by Ward's alpha, and `both` by what the surface reflects more"},
       {"frames",
        ParamType::integer,
        int64_t{10},

@@ -11,8 +11,9 @@ layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 texcoords;
 layout(location = 4) in vec4 color;
 layout(location = 5) flat in vec3 face_normal;
-layout(location = 6) flat in uvec2 ids;
+layout(location = 6) flat in uvec3 ids;
 layout(location = 7) flat in uint back;
+layout(location = 8) in vec2 weights;
 
 layout(location = 0) out vec4 out_surface_position;
 layout(location = 1) out vec4 out_surface_normal;
@@ -21,7 +22,7 @@ layout(location = 3) out vec4 out_surface_tangent;
 layout(location = 4) out vec4 out_surface_albedo;
 layout(location = 5) out vec4 out_surface_material;
 layout(location = 6) out vec4 out_surface_emission;
-layout(location = 7) out uvec2 out_surface_id;
+layout(location = 7) out uvec4 out_surface_id;
 
 const float kHalfMax = 65504.0;
 
@@ -66,5 +67,5 @@ void main() {
   out_surface_albedo = vec4(m.base_color, m.metallic);
   out_surface_material = vec4(m.ward_alpha, m.f0, m.f90);
   out_surface_emission = vec4(min(m.emission, vec3(kHalfMax)), m.unlit ? 1.0 : 0.0);
-  out_surface_id = uvec2(ids.y + 1u, id);
+  out_surface_id = uvec4(ids.y + 1u, id, ids.z, packUnorm2x16(weights));
 }

@@ -12,8 +12,9 @@ layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 texcoords;
 layout(location = 4) out vec4 color;
 layout(location = 5) flat out vec3 face_normal;   // unit, of the front face
-layout(location = 6) flat out uvec2 ids;          // material, object
+layout(location = 6) flat out uvec3 ids;          // material, object, triangle
 layout(location = 7) flat out uint back;          // 1: the viewer sees the back
+layout(location = 8) out vec2 weights;            // barycentric, of corners b and c
 
 void main() {
   uint index = uint(gl_VertexIndex) / 3u;
@@ -28,7 +29,8 @@ void main() {
   texcoords = vertex_texcoords(vertex);
   color = vertex_color(vertex);
   face_normal = safe_normalize(area_normal(corners), vec3(0.0, 1.0, 0.0));
-  ids = uvec2(t.material, t.object);
+  ids = uvec3(t.material, t.object, index);
+  weights = vec2(corner == 1u ? 1.0 : 0.0, corner == 2u ? 1.0 : 0.0);
   vec3 to_viewer = frame.eye[0].xyz - corners.a * frame.eye[0].w;
   back = dot(face_normal, to_viewer) < 0.0 ? 1u : 0u;
 

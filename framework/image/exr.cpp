@@ -56,8 +56,12 @@ std::vector<std::string> default_channel_names(const ImageDesc& desc, std::strin
   const std::string_view name = part.empty() ? port : part;
   const uint32_t channels = format_info(desc.format).channels;
   if (channels == 1) return {std::string(name)};
-  if (channels == 2)
-    return name == "id" ? std::vector<std::string>{"object", "material"} : std::vector<std::string>{"X", "Y"};
+  if (name == "id") {
+    std::vector<std::string> names = {"object", "material", "triangle", "weights"};
+    names.resize(channels);
+    return names;
+  }
+  if (channels == 2) return {"X", "Y"};
   return is_vector(name) ? std::vector<std::string>{"X", "Y", "Z", "W"} : std::vector<std::string>{"R", "G", "B", "A"};
 }
 

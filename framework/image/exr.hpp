@@ -11,8 +11,8 @@
 namespace lightloom::image {
 
 /// Names of the channels of a value in an EXR file. Colours are R G B A; directions, positions and the like (told by
-/// the name of the part or port) X Y Z W; one channel has the value's own name; an `id` pair is object, material; other
-/// pairs are X Y.
+/// the name of the part or port) X Y Z W; one channel has the value's own name; an `id` is object,
+/// material, triangle, weights (of the corners); other pairs are X Y.
 [[nodiscard]] std::vector<std::string> default_channel_names(const ImageDesc& desc, std::string_view port,
                                                              std::string_view part);
 

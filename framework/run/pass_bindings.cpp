@@ -69,7 +69,13 @@ std::vector<ShaderValue> known_shader_values(const GraphPass& pass, const ValueI
   for (const Port& port : pass.type->ports) {
     if (port.direction != Direction::in || !port.optional) continue;
     const auto& missing = pass.unconnected;
-    values.push_back({port.name + "_bound", std::find(missing.begin(), missing.end(), port.name) == missing.end()});
+    const bool bound = std::find(missing.begin(), missing.end(), port.name) == missing.end();
+    values.push_back({port.name + "_bound", bound});
+    if (bound || !port.array) continue;
+    values.push_back({port.name + "_count", 0u});
+    values.push_back({port.name + "_first_age", 0u});
+    values.push_back({port.name + "_ring", 1u});
+    values.push_back({port.name + "_newest_layer", 0u});
   }
   return values;
 }

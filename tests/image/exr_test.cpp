@@ -87,6 +87,8 @@ TEST(Exr, channel_names_follow_what_the_value_holds) {
   EXPECT_THAT(default_channel_names(four, "radiance", ""), ElementsAre("R", "G", "B", "A"));
   EXPECT_THAT(default_channel_names(four, "surface", "geometric_normal"), ElementsAre("X", "Y", "Z", "W"));
   EXPECT_THAT(default_channel_names(two, "surface", "id"), ElementsAre("object", "material"));
+  EXPECT_THAT(default_channel_names({Format::rgba32_uint, Dimension::d2, {1, 1, 1}}, "surface", "id"),
+              ElementsAre("object", "material", "triangle", "weights"));
   EXPECT_THAT(default_channel_names(two, "offset", ""), ElementsAre("X", "Y"));
   EXPECT_THAT(default_channel_names(one, "variance", ""), ElementsAre("variance"));
 }

@@ -280,6 +280,35 @@ TEST_F(GatherTest, NormalMapsTiltTheNormalAndTheTangentFollows) {
   expect_direction(direction(images, "geometric_normal", 30, 20), {0, 0, 1});
 }
 
+TEST_F(GatherTest, TheIdNamesTheTriangleAndThePlaceOnIt) {
+  const std::vector<WorldTriangle> triangles = {WorldTriangle{{{-2, -2, 0.5f}, {2, -2, -0.5f}, {-2, 2, 0}}},
+                                                WorldTriangle{{{2, -2, -0.5f}, {2, 2, 1}, {-2, 2, 0}}}};
+  const scene::Scene scene = [&] {
+    scene::Scene made = make_triangle_scene(triangles, {plain(glm::vec3(1)), plain(glm::vec3(0.5f))});
+    made.cameras = {front_camera(3)};
+    return made;
+  }();
+  const Images images = gather(scene);
+  const image::HostImage& ids = images.at("g.surface.id");
+  std::array<int, 2> seen{};
+  for (uint32_t y = 0; y < kHeight; ++y) {
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      if (ids.at(x, y, 0, kX) == 0) continue;
+      const auto index = static_cast<size_t>(ids.at(x, y, 0, kZ));
+      ASSERT_LT(index, triangles.size());
+      ASSERT_EQ(ids.at(x, y, 0, kY), static_cast<double>(index)) << "material of the same triangle";
+      ++seen[index];
+      const auto packed = static_cast<uint32_t>(ids.at(x, y, 0, kW));
+      const double b = (packed & 0xFFFFu) / 65535.0, c = (packed >> 16) / 65535.0;
+      const auto corner = [&](size_t k) { return glm::dvec3(triangles[index][k]); };
+      const glm::dvec3 place = (1 - b - c) * corner(0) + b * corner(1) + c * corner(2);
+      ASSERT_LT(glm::distance(place, direction(images, "position", static_cast<int>(x), static_cast<int>(y))), 2e-4);
+    }
+  }
+  EXPECT_GT(seen[0], 200);
+  EXPECT_GT(seen[1], 200);
+}
+
 TEST_F(GatherTest, AnOrthographicCameraSeesParallelRays) {
   scene::Camera camera = front_camera(5);
   camera.perspective = false;
