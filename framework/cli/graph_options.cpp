@@ -14,6 +14,9 @@ void GraphOptions::add_to(Command& command) {
       .placeholder("GLOB=TYPE");
   group(command.option("--dump", dumps, "Write the values that match PASS.PORT or PASS.PORT.PART, '*' for all of them"))
       .placeholder("GLOB");
+  group(command.flag("--no-hoist", no_hoist,
+                     "Run every pass in every frame, those as well that give the same each time; the pictures are the "
+                     "same"));
   group(command.option("--size", size, "View size in pixels, instead of the graph's"));
 }
 
@@ -24,6 +27,7 @@ LinkOptions GraphOptions::link_options() const {
   options.captures = dumps;
   for (const Assignment& set : sets) options.sets.emplace_back(set.name, set.value);
   for (const Assignment& swap : swaps) options.swaps.emplace_back(swap.name, swap.value);
+  options.hoist = !no_hoist;
   if (size) options.view = {size->width, size->height};
   return options;
 }

@@ -25,6 +25,7 @@ struct Value {
   std::optional<ClearColor> constant;  ///< no producer: stands for an output of a disabled pass
   uint32_t history = 0;                ///< largest age that is read; the image is a ring of history + 1 layers
   bool scratch = false;                ///< used by its pass alone, within a frame
+  bool persistent = false;             ///< its pass rewrites a part of it and keeps the rest of the frame before
   bool operator==(const Value&) const = default;
 };
 
@@ -55,6 +56,7 @@ struct GraphPass {
   std::vector<Use> outputs;
   std::vector<Use> scratch;
   std::vector<std::string> unconnected;  ///< optional inputs that have no source
+  std::string once;                      ///< why it runs in the first frame alone; empty: it runs in every frame
 };
 
 /// `age` is 0 unless a bypassed pass stood between, whose source is a history edge.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/graph/hoist.hpp"
 #include "framework/graph/link_state.hpp"
 
 namespace lightloom {
@@ -57,6 +58,7 @@ std::optional<Graph> link(const GraphSpec& spec, const PassRegistry& registry, c
   std::optional<Graph> graph = linking::assemble(nodes, wiring, needs, shapes);
   if (!graph || diagnostics.has_errors()) return std::nullopt;
   graph->name = spec.name;
+  if (options.hoist) hoist(*graph, environment.changing);
   graph->notes = std::move(notes);
   return graph;
 }

@@ -24,6 +24,7 @@ struct LinkOptions {
   std::vector<std::pair<std::string, std::string>> sets;   ///< "PARAM" or "PASS.PARAM" (PASS a glob), value text
   std::optional<std::pair<uint32_t, uint32_t>> view;       ///< width, height [pixels]
   std::vector<std::string> captures;  ///< globs over "pass.port" and "pass.port.part"; "*" means every value
+  bool hoist = true;                  ///< a pass whose result is the same in every frame runs in the first one alone
 };
 
 /// What the graph is linked against.
@@ -32,6 +33,8 @@ struct LinkEnvironment {
   std::function<Extent3(int64_t resolution)> grid_extent;
   /// Every known feature of a scene, and whether this scene has it; `when` may name these alone.
   std::vector<std::pair<std::string, bool>> scene_features;
+  /// What differs between two frames of the scene: dynamic geometry does not where there is none.
+  FrameState changing = kChangingState;
 };
 
 /// Resolves names, params, bypasses and shapes, and culls. Reports every problem; empty if `diagnostics` has an error,

@@ -28,6 +28,7 @@ class Assembler {
         graph_.outputs.push_back({output.spec->name, value_of(output.source), output.source.first_age});
     for (const ImageRef& image : needs_.captures) graph_.captures.push_back(id_of(image));
     std::sort(graph_.captures.begin(), graph_.captures.end());
+    mark_persistent();
     add_remarks();
     if (!complete_) return std::nullopt;
     return std::move(graph_);
@@ -44,7 +45,7 @@ class Assembler {
     complete_ = complete_ && extent.has_value();
     graph_.values.push_back({nodes_.list[image.node].spec->name, image.port->name, part.name,
                              ImageDesc{part.format, image.port->dimension, extent.value_or(Extent3{})}, constant, 0,
-                             image.port->direction == Direction::scratch});
+                             image.port->direction == Direction::scratch, false});
     images_.push_back(image);
     return static_cast<ValueId>(images_.size() - 1);
   }
@@ -88,6 +89,18 @@ class Assembler {
                         id_of({index, &port, part}), 0, 0, false});
     }
     graph_.passes.push_back(std::move(pass));
+  }
+
+  /// A ring's next layer holds what is older than the frame before, so nothing of the port is kept if any part has one.
+  void mark_persistent() {
+    const auto same_port = [](const ImageRef& a, const ImageRef& b) { return a.node == b.node && a.port == b.port; };
+    for (std::size_t id = 0; id < images_.size(); ++id) {
+      if (!images_[id].port->persistent || graph_.values[id].constant) continue;
+      bool ring = false;
+      for (std::size_t other = 0; other < images_.size(); ++other)
+        ring = ring || (same_port(images_[id], images_[other]) && graph_.values[other].history > 0);
+      graph_.values[id].persistent = !ring;
+    }
   }
 
   void add_remarks() {

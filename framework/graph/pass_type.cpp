@@ -29,6 +29,7 @@ class TableCheck {
       require(params.insert(param.name).second, "declares param '" + param.name + "' twice");
       check_param(param);
     }
+    if (type_.reads_with) check_reads();
   }
 
  private:
@@ -51,6 +52,8 @@ class TableCheck {
     }
     require(access.writes, which + "is written, but its access does not write");
     require(!port.optional && !port.array, which + "is no input and cannot be optional or an array");
+    require(!port.persistent || port.access != Access::depth_attachment_write,
+            which + "is a depth attachment, which each draw clears, and cannot be persistent");
     require(port.direction == Direction::out || !port.bypass, which + "is scratch and cannot have a bypass");
     if (port.bypass && !port.bypass->input.empty()) check_bypass(port, which);
   }
@@ -116,6 +119,21 @@ class TableCheck {
     }
     require((!param.minimum || number >= *param.minimum) && (!param.maximum || number <= *param.maximum),
             which + "has a default that is out of its range");
+  }
+
+  /// With the defaults, and with each choice of each param in turn.
+  void check_reads() const {
+    ParamSet chosen;
+    for (const Param& param : type_.params) chosen.set(param, param.default_value);
+    const auto within = [&] { return contains(type_.reads, type_.reads_of(chosen)); };
+    require(within(), "reads more with its default params than it declares to read at all");
+    for (const Param& param : type_.params) {
+      for (const std::string& choice : param.choices) {
+        chosen.set(param, choice);
+        require(within(), "reads more with " + param.name + " = " + choice + " than it declares to read at all");
+      }
+      chosen.set(param, param.default_value);
+    }
   }
 
   const PassType& type_;

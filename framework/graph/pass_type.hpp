@@ -27,6 +27,12 @@ enum class FrameState : uint32_t {
 constexpr FrameState operator|(FrameState a, FrameState b) {
   return static_cast<FrameState>(static_cast<uint32_t>(a) | static_cast<uint32_t>(b));
 }
+constexpr FrameState operator&(FrameState a, FrameState b) {
+  return static_cast<FrameState>(static_cast<uint32_t>(a) & static_cast<uint32_t>(b));
+}
+/// Those parts that may differ between two frames of a scene; the others are what it was loaded with.
+constexpr FrameState kChangingState =
+    FrameState::camera | FrameState::time | FrameState::seed | FrameState::dynamic_geometry | FrameState::lights;
 constexpr bool contains(FrameState set, FrameState part) {
   return (static_cast<uint32_t>(set) & static_cast<uint32_t>(part)) == static_cast<uint32_t>(part);
 }

@@ -1,6 +1,7 @@
 #include "framework/graph/plan.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "framework/graph/schedule.hpp"
@@ -39,17 +40,18 @@ std::string_view to_string(Hazard hazard) {
 Plan compile(const Graph& graph) {
   Plan plan;
   plan.graph = graph;
-  std::vector<uint32_t> producer_step(graph.values.size(), 0);
-  for (const uint32_t pass : schedule(graph).order) {
-    const auto step = static_cast<uint32_t>(plan.steps.size());
-    for (const Use& use : graph.passes[pass].outputs) producer_step[use.value] = step;
-    for (const Use& use : graph.passes[pass].scratch) producer_step[use.value] = step;
-    plan.steps.push_back({pass, {}, {}});
+  std::vector<std::optional<uint32_t>> producer_step(graph.values.size());
+  for (const uint32_t index : schedule(graph).order) {
+    const GraphPass& pass = graph.passes[index];
+    (pass.once.empty() ? plan.steps : plan.once).push_back({index, {}, {}});
+    if (!pass.once.empty()) continue;
+    const auto step = static_cast<uint32_t>(plan.steps.size() - 1);
+    for (const Use& use : pass.outputs) producer_step[use.value] = step;
+    for (const Use& use : pass.scratch) producer_step[use.value] = step;
   }
   for (const auto& [value, age] : observed(graph)) {
-    std::vector<Copy>& copies =
-        graph.values[value].constant ? plan.opening_copies : plan.steps[producer_step[value]].copies;
-    copies.push_back({value, age, {}});
+    const std::optional<uint32_t> step = producer_step[value];
+    (step ? plan.steps[*step].copies : plan.opening_copies).push_back({value, age, {}});
   }
   synchronise(plan);
   return plan;

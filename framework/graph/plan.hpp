@@ -41,36 +41,39 @@ struct PlanStep {
   std::vector<Copy> copies;       ///< after the pass
 };
 
-/// Every layer of a value is cleared, once, before the first frame.
+/// Every layer of a value is cleared, once, before anything else.
 struct Clear {
   ValueId value = 0;
   ClearColor color{0, 0, 0, 0};
 };
 
-/// What a frame executes, as plain data. One frame in order: frame_start, uploads of frame inputs, inputs_ready,
-/// opening_copies, then each step: barriers, pass, copies.
+/// What is executed, as plain data. Before the first frame: prologue, prologue_barriers. Then each frame in order:
+/// frame_start, uploads of frame inputs, inputs_ready, in the first frame alone `once` and once_barriers,
+/// opening_copies, then `steps`; a step is its barriers, its pass, its copies.
 ///
 /// A pass's first command may be a clear (transfer) although its port declares another access; the barriers here reach
 /// the declared access's stages, so the one who records the clear chains from those stages to the transfer.
 struct Plan {
   Graph graph;
-  std::vector<Clear> prologue;             ///< constants and rings; on an idle device, once and when history is reset
-  std::vector<Barrier> prologue_barriers;  ///< after the clears, before the first frame
+  std::vector<Clear> prologue;             ///< constants, rings, persistent values
+  std::vector<Barrier> prologue_barriers;  ///< after the clears
+  std::vector<PlanStep> once;              ///< passes that give the same in every frame (GraphPass::once); no copies
+  std::vector<Barrier> once_barriers;      ///< after them, for those that only the frame's steps and copies read
   std::vector<Barrier> frame_start;        ///< last frame's reads of frame inputs before this frame's upload
   std::vector<Barrier> inputs_ready;       ///< upload before the reads
-  std::vector<Copy> opening_copies;        ///< of values that no pass produces in this frame: constants
-  std::vector<PlanStep> steps;
+  std::vector<Copy> opening_copies;        ///< of values that `steps` do not produce: constants, those of `once`
+  std::vector<PlanStep> steps;             ///< what every frame runs
 };
 
 /// Orders and synchronises. Pure; the same graph gives the same plan.
 [[nodiscard]] Plan compile(const Graph& graph);
 
-/// Readable text: order, params, inputs with ages, outputs with shapes and bytes, barriers with reasons, what was
-/// culled and bypassed, memory and rings.
+/// Readable text: what runs once and why, what each frame runs in order, params, inputs with ages, outputs with shapes
+/// and bytes, barriers with reasons, what was culled and bypassed, memory and rings.
 [[nodiscard]] std::string print_plan(const Plan& plan);
 
-/// Hash of what is executed: steps, params, values, uses, barriers, copies. What was culled or bypassed, remarks and
-/// positions in the file do not count, so a disabled node hashes as if it had never been written.
+/// Hash of what is executed: steps, once or each frame, params, values, uses, barriers, copies. What was culled or
+/// bypassed, remarks and positions in the file do not count, so a disabled node hashes as if it had never been written.
 [[nodiscard]] uint64_t plan_hash(const Plan& plan);
 
 struct MemoryUse {

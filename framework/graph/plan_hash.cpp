@@ -15,15 +15,12 @@ class PlanHasher {
       for (const float channel : clear.color) hasher_.real(channel);
     }
     barriers(plan_.prologue_barriers);
+    steps(plan_.once);
+    barriers(plan_.once_barriers);
     barriers(plan_.frame_start);
     barriers(plan_.inputs_ready);
     copies(plan_.opening_copies);
-    hasher_.number(plan_.steps.size());
-    for (const PlanStep& step : plan_.steps) {
-      barriers(step.barriers);
-      pass(plan_.graph.passes[step.pass]);
-      copies(step.copies);
-    }
+    steps(plan_.steps);
     hasher_.number(plan_.graph.outputs.size());
     for (const GraphOutput& output : plan_.graph.outputs) {
       hasher_.text(output.name);
@@ -34,12 +31,22 @@ class PlanHasher {
   }
 
  private:
+  void steps(const std::vector<PlanStep>& list) {
+    hasher_.number(list.size());
+    for (const PlanStep& step : list) {
+      barriers(step.barriers);
+      pass(plan_.graph.passes[step.pass]);
+      copies(step.copies);
+    }
+  }
+
   void value(ValueId id) {
     if (id == kFrameInputs) return hasher_.text("frame inputs");
     const Value& value = plan_.graph.values[id];
     hasher_.text(value_name(value));
     hasher_.text(to_string(value.desc));
     hasher_.number(ring_layers(value));
+    hasher_.number(value.persistent);
     hasher_.number(value.constant.has_value());
     for (const float channel : value.constant.value_or(ClearColor{})) hasher_.real(channel);
   }

@@ -28,17 +28,19 @@ class Printer {
   std::string run() {
     const MemoryUse memory = memory_use(graph_);
     out_ << "plan of '" << graph_.name << "' " << hex(plan_hash(plan_)) << "\n";
-    out_ << "view " << to_string(graph_.view) << ", trace " << to_string(graph_.trace) << ", " << plan_.steps.size()
-         << " passes, " << graph_.values.size() << " images, " << bytes_text(memory.total) << " ("
-         << bytes_text(memory.rings) << " in rings)\n";
+    out_ << "view " << to_string(graph_.view) << ", trace " << to_string(graph_.trace) << ", "
+         << plan_.once.size() + plan_.steps.size() << " passes, " << plan_.once.size() << " of them once, "
+         << graph_.values.size() << " images, " << bytes_text(memory.total) << " (" << bytes_text(memory.rings)
+         << " in rings)\n";
     for (const auto& [name, value] : graph_.params) out_ << "param " << name << " = " << to_string(value) << "\n";
     prologue();
+    once();
     out_ << "\nframe\n";
     barriers(plan_.frame_start);
     out_ << "  upload frame inputs\n";
     barriers(plan_.inputs_ready);
     copies(plan_.opening_copies);
-    for (std::size_t i = 0; i < plan_.steps.size(); ++i) step(i);
+    for (const PlanStep& each : plan_.steps) step(each);
     remarks();
     return out_.str();
   }
@@ -57,11 +59,20 @@ class Printer {
            << clear.color[2] << ", " << clear.color[3] << "), ";
       if (value.constant) {
         out_ << "constant " << to_string(value.desc) << "\n";
+      } else if (value.persistent) {
+        out_ << "kept from frame to frame\n";
       } else {
         out_ << "ring of " << ring_layers(value) << "\n";
       }
     }
     barriers(plan_.prologue_barriers);
+  }
+
+  void once() {
+    if (plan_.once.empty()) return;
+    out_ << "\nonce, in the first frame when its inputs are there\n";
+    for (const PlanStep& each : plan_.once) step(each);
+    barriers(plan_.once_barriers);
   }
 
   /// Barriers on parts of one port that differ in nothing else share a line.
@@ -97,14 +108,14 @@ class Printer {
     }
   }
 
-  void step(std::size_t index) {
-    const PlanStep& step = plan_.steps[index];
+  void step(const PlanStep& step) {
     const GraphPass& pass = graph_.passes[step.pass];
     barriers(step.barriers);
-    out_ << "  " << index + 1 << ". " << pass.name << " (" << pass.type->name << ")";
+    out_ << "  " << ++steps_ << ". " << pass.name << " (" << pass.type->name << ")";
     for (const ParamSet::Entry& entry : pass.params.entries())
       out_ << " " << entry.param->name << "=" << to_string(entry.value);
     out_ << "\n";
+    if (!pass.once.empty()) out_ << "       " << pass.once << "\n";
     for (const Use& use : pass.inputs) input(use);
     for (const std::string& port : pass.unconnected) out_ << "       in  " << port << ": not connected\n";
     for (const Use& use : pass.outputs) written("out ", use);
@@ -123,6 +134,7 @@ class Printer {
     const Value& value = graph_.values[use.value];
     out_ << "       " << kind << use.port << (use.part.empty() ? "" : ".") << use.part << ": " << to_string(value.desc);
     if (ring_layers(value) > 1) out_ << ", ring of " << ring_layers(value);
+    if (value.persistent) out_ << ", kept from frame to frame";
     out_ << ", " << bytes_text(byte_size(value)) << "\n";
   }
 
@@ -144,6 +156,7 @@ class Printer {
   const Plan& plan_;
   const Graph& graph_;
   std::ostringstream out_;
+  std::size_t steps_ = 0;
 };
 
 }  // namespace

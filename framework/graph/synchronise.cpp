@@ -10,8 +10,11 @@
 namespace lightloom {
 namespace {
 
-/// A point in the frame where barriers can stand: before the pass of a step (`copy` 0) or before its copy `copy` - 1.
+enum class Section : uint8_t { once, frame };
+
+/// A point where barriers can stand: before the pass of a step (`copy` 0) or before its copy `copy` - 1.
 struct Position {
+  Section section = Section::frame;
   uint32_t step = 0;
   uint32_t copy = 0;
   auto operator<=>(const Position&) const = default;
@@ -25,7 +28,7 @@ struct Reader {
   std::string name;
 };
 
-/// All that touches one value in a frame.
+/// All that touches one value in a frame, or once.
 struct Round {
   std::optional<Position> write;
   Access write_access = Access::none;
@@ -43,26 +46,32 @@ bool same_stages(Access a, Access b) {
   return access_info(a).stages == access_info(b).stages;
 }
 
-std::vector<Round> collect_rounds(const Plan& plan) {
-  std::vector<Round> rounds(plan.graph.values.size());
-  for (uint32_t step = 0; step < plan.steps.size(); ++step) {
-    const GraphPass& pass = plan.graph.passes[plan.steps[step].pass];
+void collect(std::vector<Round>& rounds, const Graph& graph, const std::vector<PlanStep>& steps, Section section) {
+  for (uint32_t step = 0; step < steps.size(); ++step) {
+    const GraphPass& pass = graph.passes[steps[step].pass];
     for (const Use& use : pass.inputs)
-      rounds[use.value].readers.push_back({{step, 0}, use.access, use.first_age, use.last_age, pass.name});
+      rounds[use.value].readers.push_back({{section, step, 0}, use.access, use.first_age, use.last_age, pass.name});
     for (const auto* uses : {&pass.outputs, &pass.scratch}) {
       for (const Use& use : *uses) {
-        rounds[use.value].write = Position{step, 0};
+        rounds[use.value].write = Position{section, step, 0};
         rounds[use.value].write_access = use.access;
         rounds[use.value].writer = pass.name;
       }
     }
-    const std::vector<Copy>& copies = plan.steps[step].copies;
+    const std::vector<Copy>& copies = steps[step].copies;
     for (uint32_t i = 0; i < copies.size(); ++i)
       rounds[copies[i].value].readers.push_back(
-          {{step, i + 1}, Access::transfer_read, copies[i].age, copies[i].age, "the read-back"});
+          {{section, step, i + 1}, Access::transfer_read, copies[i].age, copies[i].age, "the read-back"});
   }
+}
+
+std::vector<Round> collect_rounds(const Plan& plan) {
+  std::vector<Round> rounds(plan.graph.values.size());
+  collect(rounds, plan.graph, plan.once, Section::once);
+  collect(rounds, plan.graph, plan.steps, Section::frame);
   for (const Copy& copy : plan.opening_copies)
-    rounds[copy.value].readers.push_back({{0, 0}, Access::transfer_read, copy.age, copy.age, "the read-back"});
+    rounds[copy.value].readers.push_back(
+        {{Section::frame, 0, 0}, Access::transfer_read, copy.age, copy.age, "the read-back"});
   return rounds;
 }
 
@@ -101,7 +110,8 @@ class Synchroniser {
     for (ValueId value = 0; value < rounds_.size(); ++value) {
       const Round& round = rounds_[value];
       initialise(value, round);
-      if (round.write) one_round(value, round);
+      if (round.write && round.write->section == Section::once) written_once(value, round);
+      if (round.write && round.write->section == Section::frame) one_round(value, round);
     }
   }
 
@@ -113,12 +123,12 @@ class Synchroniser {
                                   Hazard::read_after_write, false, "passes read the frame inputs"});
   }
 
-  /// Constants and rings are cleared before the first frame. Who reads a ring before the frame's own read barriers
-  /// waits for the clear here; all others, the writer too, are reached from here through the barriers of the first
-  /// frame.
+  /// Constants, rings and persistent values are cleared before the first frame. Who reads a ring before the frame's own
+  /// read barriers waits for the clear here; all others, the writer too, are reached from here through the barriers of
+  /// the first frame.
   void initialise(ValueId id, const Round& round) {
     const Value& value = plan_.graph.values[id];
-    if (!value.constant && value.history == 0) return;
+    if (!value.constant && value.history == 0 && !value.persistent) return;
     plan_.prologue.push_back({id, value.constant.value_or(ClearColor{0, 0, 0, 0})});
     const auto meets_clear = [&](const Reader& reader) {
       return value.constant || reader.position < read_barrier_reader(round)->position;
@@ -138,6 +148,17 @@ class Synchroniser {
     const auto first = std::find_if(round.readers.begin(), round.readers.end(),
                                     [](const Reader& reader) { return reader.first_age == 0; });
     return first == round.readers.end() ? round.readers.begin() : first;
+  }
+
+  /// One barrier for all who ever read it, where the first of them does.
+  void written_once(ValueId id, const Round& round) {
+    const auto anyone = [](const Reader& /*reader*/) { return true; };
+    const auto early = std::find_if(round.readers.begin(), round.readers.end(),
+                                    [](const Reader& reader) { return reader.position.section == Section::once; });
+    std::vector<Barrier>& list = early == round.readers.end() ? plan_.once_barriers : at(early->position);
+    for (const Access access : distinct_accesses(round, anyone))
+      list.push_back({id, round.write_access, access, Hazard::read_after_write, false,
+                      round.writer + " writes it once, read by " + names_of(round, access, anyone)});
   }
 
   void one_round(ValueId id, const Round& round) {
@@ -181,7 +202,7 @@ class Synchroniser {
   }
 
   std::vector<Barrier>& at(const Position& position) {
-    PlanStep& step = plan_.steps[position.step];
+    PlanStep& step = (position.section == Section::once ? plan_.once : plan_.steps)[position.step];
     return position.copy == 0 ? step.barriers : step.copies[position.copy - 1].barriers;
   }
 

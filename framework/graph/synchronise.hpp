@@ -14,6 +14,9 @@ namespace lightloom {
 /// - write after read: before the write, from every reader's stages, in an earlier frame. It names the write's access,
 ///   so that the chain from the write before is a memory dependency, not of execution alone.
 /// - write after write: only where nothing reads in between (scratch, an output nobody uses).
+/// A persistent value has the same round: what its pass leaves from the frame before was made visible to all readers by
+/// the barriers of that frame, and to the pass by those before its write.
+/// What is written once has no next write: one barrier before the first reader, for the readers of all frames.
 void synchronise(Plan& plan);
 
 }  // namespace lightloom

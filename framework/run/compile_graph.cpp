@@ -15,6 +15,8 @@ LinkEnvironment link_environment(const scene::Scene* scene) {
   environment.scene_features = (scene != nullptr ? scene->features : scene::Features{}).named();
   if (scene == nullptr)
     for (auto& [name, present] : environment.scene_features) present = true;
+  if (scene != nullptr && scene->static_triangle_count == scene->triangles.size())
+    environment.changing = FrameState::camera | FrameState::time | FrameState::seed | FrameState::lights;
   return environment;
 }
 

@@ -7,6 +7,13 @@
 #include "framework/run/barriers.hpp"
 
 namespace lightloom::run {
+namespace {
+
+uint32_t query_count(size_t steps) {
+  return static_cast<uint32_t>(steps) * 2;
+}
+
+}  // namespace
 
 Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, const ExecutorOptions& options)
     : device_(device),
@@ -22,9 +29,9 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
       placeholders_(device),
       shaders_(device, {.include_directories = options.shaders.sources, .cache_directory = options.shaders.cache}),
       descriptors_(device),
-      timestamps_(device, static_cast<uint32_t>(std::max<size_t>(plan_.steps.size(), 1)) * 2) {
+      timestamps_(device, query_count(std::max<size_t>(plan_.steps.size() + plan_.once.size(), 1))) {
   device_.run_commands([&](VkCommandBuffer commands) {
-    images_.record_initialisation(commands, plan_);
+    images_.record_initialisation(commands);
     gpu::record_full_barrier(commands);
   });
 }
@@ -33,16 +40,33 @@ FrameResult Executor::run_frame(uint32_t frame) {
   const FrameConditions conditions = scene_.prepare(frame);
   descriptors_.reset();
   device_.run_commands([&](VkCommandBuffer commands) { record_frame(commands); });
+  FrameResult result = collect(frame, conditions);
   ++frame_count_;
-  return collect(frame, conditions);
+  return result;
+}
+
+void Executor::record_prologue(VkCommandBuffer commands) const {
+  for (const Clear& clear : plan_.prologue) images_.record_clear(commands, clear);
+  record_barriers(commands, plan_.prologue_barriers);
 }
 
 void Executor::record_frame(VkCommandBuffer commands) {
+  const bool first = frame_count_ == 0;
   timestamps_.reset(commands);
+  if (first) record_prologue(commands);
   record_barriers(commands, plan_.frame_start);
   scene_.record_upload(commands);
   record_barriers(commands, plan_.inputs_ready);
+  if (first) {
+    record_steps(commands, plan_.once, query_count(plan_.steps.size()));
+    record_barriers(commands, plan_.once_barriers);
+  }
   record_copies(commands, plan_.opening_copies);
+  record_steps(commands, plan_.steps, 0);
+  Readback::record_end(commands);
+}
+
+void Executor::record_steps(VkCommandBuffer commands, const std::vector<PlanStep>& steps, uint32_t first_query) {
   const RecordingEnvironment environment{.commands = commands,
                                          .images = &images_,
                                          .frame_count = frame_count_,
@@ -50,8 +74,8 @@ void Executor::record_frame(VkCommandBuffer commands) {
                                          .placeholders = &placeholders_,
                                          .shaders = &shaders_,
                                          .descriptors = &descriptors_};
-  uint32_t query = 0;
-  for (const PlanStep& step : plan_.steps) {
+  uint32_t query = first_query;
+  for (const PlanStep& step : steps) {
     const GraphPass& pass = plan_.graph.passes[step.pass];
     record_barriers(commands, step.barriers);
     record_timestamp(commands, query++);
@@ -60,7 +84,6 @@ void Executor::record_frame(VkCommandBuffer commands) {
     record_timestamp(commands, query++);
     record_copies(commands, step.copies);
   }
-  Readback::record_end(commands);
 }
 
 void Executor::record_timestamp(VkCommandBuffer commands, uint32_t query) const {
@@ -80,17 +103,29 @@ void Executor::record_copies(VkCommandBuffer commands, const std::vector<Copy>& 
 
 FrameResult Executor::collect(uint32_t frame, const FrameConditions& conditions) const {
   const Graph& graph = plan_.graph;
-  FrameResult result{.frame = frame, .conditions = conditions, .outputs = {}, .captures = {}, .times = {}};
+  FrameResult result{
+      .frame = frame, .conditions = conditions, .outputs = {}, .captures = {}, .times = {}, .once_times = {}};
   for (const GraphOutput& output : graph.outputs)
     result.outputs.push_back({output.name, readback_.fetch(output.value, output.age)});
   for (const ValueId capture : graph.captures)
     result.captures.push_back({value_name(graph.values[capture]), readback_.fetch(capture, 0)});
-  const std::vector<double> times = timestamps_.nanoseconds(static_cast<uint32_t>(plan_.steps.size()) * 2);
-  for (size_t step = 0; step < plan_.steps.size(); ++step) {
-    const double nanoseconds = times.empty() ? -1e6 : times[2 * step + 1] - times[2 * step];
-    result.times.push_back({graph.passes[plan_.steps[step].pass].name, nanoseconds * 1e-6});
-  }
+  const bool first = frame_count_ == 0;
+  const std::vector<double> stamps =
+      timestamps_.nanoseconds(query_count(plan_.steps.size() + (first ? plan_.once.size() : 0)));
+  result.times = times_of(plan_.steps, stamps, 0);
+  if (first) result.once_times = times_of(plan_.once, stamps, query_count(plan_.steps.size()));
   return result;
+}
+
+std::vector<PassTime> Executor::times_of(const std::vector<PlanStep>& steps, const std::vector<double>& stamps,
+                                         size_t first_query) const {
+  std::vector<PassTime> times;
+  for (size_t step = 0; step < steps.size(); ++step) {
+    const size_t query = first_query + 2 * step;
+    const double nanoseconds = stamps.empty() ? -1e6 : stamps.at(query + 1) - stamps.at(query);
+    times.push_back({plan_.graph.passes[steps[step].pass].name, nanoseconds * 1e-6});
+  }
+  return times;
 }
 
 }  // namespace lightloom::run

@@ -43,9 +43,14 @@ class Executor {
 
  private:
   void record_frame(VkCommandBuffer commands);
+  void record_prologue(VkCommandBuffer commands) const;
+  /// Timestamps are queries `first_query` and on, two a step.
+  void record_steps(VkCommandBuffer commands, const std::vector<PlanStep>& steps, uint32_t first_query);
   void record_timestamp(VkCommandBuffer commands, uint32_t query) const;
   void record_copies(VkCommandBuffer commands, const std::vector<Copy>& copies) const;
   [[nodiscard]] FrameResult collect(uint32_t frame, const FrameConditions& conditions) const;
+  [[nodiscard]] std::vector<PassTime> times_of(const std::vector<PlanStep>& steps, const std::vector<double>& stamps,
+                                               size_t first_query) const;
 
   gpu::Device& device_;
   Plan plan_;

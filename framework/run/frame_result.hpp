@@ -33,7 +33,8 @@ struct FrameResult {
   FrameConditions conditions;
   std::vector<NamedImage> outputs;   ///< in the order of the graph's outputs
   std::vector<NamedImage> captures;  ///< in the order of the plan's captures
-  std::vector<PassTime> times;       ///< in execution order
+  std::vector<PassTime> times;       ///< of what every frame runs, in execution order
+  std::vector<PassTime> once_times;  ///< of what the first frame alone runs; empty in the others
 };
 
 }  // namespace lightloom::run

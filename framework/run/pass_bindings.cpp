@@ -95,13 +95,14 @@ void require_declared_read(const GraphPass& pass, std::string_view binding, std:
   const auto* row = std::find_if(kDeclaredReads.begin(), kDeclaredReads.end(),
                                  [&](const DeclaredRead& read) { return read.binding == binding; });
   if (row == kDeclaredReads.end()) return;
-  const bool declared = std::any_of(row->any_of.begin(), row->any_of.end(),
-                                    [&](FrameState state) { return contains(pass.type->reads, state); });
+  const FrameState reads = pass.type->reads_of(pass.params);
+  const bool declared =
+      std::any_of(row->any_of.begin(), row->any_of.end(), [&](FrameState state) { return contains(reads, state); });
   if (declared) return;
   throw Error(ExitCode::run_failed,
               "pass '" + pass.name + "' (" + pass.type->name + "): shader '" + std::string(shader) + "' reads '" +
-                  std::string(binding) + "', which the pass type does not declare among what it reads",
-              "add the frame state to PassType::reads");
+                  std::string(binding) + "', which the pass type does not declare among what it reads with its params",
+              "add the frame state to PassType::reads or reads_with");
 }
 
 bool names_unconnected_input(const GraphPass& pass, std::string_view binding) {

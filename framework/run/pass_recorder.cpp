@@ -51,7 +51,6 @@ bool PassRecorder::connected(std::string_view input_port) const {
 }
 
 bool PassRecorder::kept(std::string_view port) const {
-  if (environment_.frame_count == 0) return false;
   const auto persistent = std::find_if(pass_.type->ports.begin(), pass_.type->ports.end(), [&](const Port& candidate) {
     return candidate.persistent && candidate.name == port && candidate.direction != Direction::in;
   });
@@ -59,8 +58,8 @@ bool PassRecorder::kept(std::string_view port) const {
     fail(pass_, "asks whether '" + std::string(port) + "' was kept, which is not a persistent port");
   for (const std::vector<Use>* uses : {&pass_.outputs, &pass_.scratch})
     for (const Use& use : *uses)
-      if (use.port == port && environment_.images->ring(use.value) > 1) return false;
-  return true;
+      if (use.port == port && !graph_.values[use.value].persistent) return false;
+  return environment_.frame_count > 0;
 }
 
 bool PassRecorder::wanted(std::string_view output_port) const {
@@ -69,6 +68,8 @@ bool PassRecorder::wanted(std::string_view output_port) const {
 }
 
 std::vector<VoxelBox> PassRecorder::moved_boxes(const Extent3& grid) const {
+  if (!contains(pass_.type->reads_of(pass_.params), FrameState::dynamic_geometry))
+    fail(pass_, "asks what moved, but does not declare to read dynamic geometry");
   if (dynamic_triangles().count == 0) return {};
   const auto last = [](uint32_t length) { return static_cast<int32_t>(length) - 1; };
   return {{{0, 0, 0}, {last(grid.width), last(grid.height), last(grid.depth)}}};

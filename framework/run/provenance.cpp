@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "framework/base/hash.hpp"
@@ -42,6 +43,12 @@ Json key_json(const scene::CameraKey& key) {
   }
   if (key.vertical_fov) result["vertical_fov_degrees"] = glm::degrees(*key.vertical_fov);
   return result;
+}
+
+Json pass_record(const GraphPass& pass) {
+  Json params = Json::object();
+  for (const ParamSet::Entry& entry : pass.params.entries()) params[entry.param->name] = to_json(entry.value);
+  return {{"pass", pass.name}, {"type", pass.type->name}, {"version", pass.type->version}, {"params", params}};
 }
 
 }  // namespace
@@ -118,18 +125,26 @@ Json graph_record(const Plan& plan) {
 Json pass_records(const Plan& plan, const std::vector<std::vector<PassTime>>& frames) {
   Json records = Json::array();
   for (size_t step = 0; step < plan.steps.size(); ++step) {
-    const GraphPass& pass = plan.graph.passes[plan.steps[step].pass];
-    Json params = Json::object();
-    for (const ParamSet::Entry& entry : pass.params.entries()) params[entry.param->name] = to_json(entry.value);
     std::vector<double> times;
     for (const std::vector<PassTime>& frame : frames) times.push_back(frame.at(step).milliseconds);
     const bool known = std::all_of(times.begin(), times.end(), [](double time) { return time >= 0; });
-    records.push_back({{"pass", pass.name},
-                       {"type", pass.type->name},
-                       {"version", pass.type->version},
-                       {"params", params},
-                       {"median_ms", known ? Json(median(times)) : Json()},
-                       {"frames_ms", known ? Json(times) : Json()}});
+    Json record = pass_record(plan.graph.passes[plan.steps[step].pass]);
+    record["median_ms"] = known ? Json(median(times)) : Json();
+    record["frames_ms"] = known ? Json(times) : Json();
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+Json once_records(const Plan& plan, const std::vector<PassTime>& times) {
+  Json records = Json::array();
+  for (size_t step = 0; step < plan.once.size(); ++step) {
+    const GraphPass& pass = plan.graph.passes[plan.once[step].pass];
+    const double time = times.at(step).milliseconds;
+    Json record = pass_record(pass);
+    record["reason"] = pass.once;
+    record["ms"] = time >= 0 ? Json(time) : Json();
+    records.push_back(std::move(record));
   }
   return records;
 }

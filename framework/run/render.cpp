@@ -20,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 /// Times and warnings that gather while frames are rendered.
 struct Progress {
   std::vector<std::vector<PassTime>> pass_times;
+  std::vector<PassTime> once_times;
   std::vector<double> wall_milliseconds;
 };
 
@@ -43,6 +44,7 @@ Json run_record(const RenderRequest& request, const Executor& executor, const sc
   record["validation"] = device.validating();
   record["value_memory_bytes"] = executor.value_bytes();
   record["frame_wall_ms"] = {{"median", median(progress.wall_milliseconds)}, {"frames", progress.wall_milliseconds}};
+  record["hoisted"] = once_records(executor.plan(), progress.once_times);
   record["passes"] = pass_records(executor.plan(), progress.pass_times);
   record["warnings"] = warnings;
   return record;
@@ -58,6 +60,7 @@ Progress render_frames(const RenderRequest& request, const scene::Scene& scene, 
     const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
     progress.wall_milliseconds.push_back(elapsed.count());
     progress.pass_times.push_back(result.times);
+    if (done == 0) progress.once_times = result.once_times;
     folder.write_frame(executor.plan().graph, result, frame_record(result, request.seed, scene.bounds));
     if (on_frame) on_frame(done + 1, total);
   }

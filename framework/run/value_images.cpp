@@ -1,7 +1,5 @@
 #include "framework/run/value_images.hpp"
 
-#include <map>
-
 #include "framework/gpu/format.hpp"
 #include "framework/gpu/transfer.hpp"
 
@@ -95,16 +93,18 @@ gpu::ImageView ValueImages::array_view(ValueId value) const {
   return entries_.at(value).images.front().array_view();
 }
 
-void ValueImages::record_initialisation(VkCommandBuffer commands, const Plan& plan) const {
-  std::map<ValueId, ClearColor> colors;
-  for (const Clear& clear : plan.prologue) colors[clear.value] = clear.color;
-  for (ValueId id = 0; id < entries_.size(); ++id) {
-    for (const gpu::Image& image : entries_[id].images) {
+void ValueImages::record_initialisation(VkCommandBuffer commands) const {
+  for (const Entry& entry : entries_) {
+    for (const gpu::Image& image : entry.images) {
       gpu::record_layout_change(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
-      const auto color = colors.find(id);
-      record_clear(commands, image, VK_REMAINING_ARRAY_LAYERS, color == colors.end() ? ClearColor{} : color->second);
+      run::record_clear(commands, image, VK_REMAINING_ARRAY_LAYERS, {});
     }
   }
+}
+
+void ValueImages::record_clear(VkCommandBuffer commands, const Clear& clear) const {
+  for (const gpu::Image& image : entries_.at(clear.value).images)
+    run::record_clear(commands, image, VK_REMAINING_ARRAY_LAYERS, clear.color);
 }
 
 uint64_t ValueImages::bytes() const {

@@ -29,8 +29,10 @@ class ValueImages {
   /// The whole ring of a 2D value.
   [[nodiscard]] gpu::ImageView array_view(ValueId value) const;
 
-  /// Brings every image into GENERAL and clears it: to its constant, to the plan's prologue colour, else to zero.
-  void record_initialisation(VkCommandBuffer commands, const Plan& plan) const;
+  /// Brings every image into GENERAL and fills it with zeros, so that nothing can depend on what the memory held.
+  void record_initialisation(VkCommandBuffer commands) const;
+  /// Fills every layer of a value.
+  void record_clear(VkCommandBuffer commands, const Clear& clear) const;
 
   [[nodiscard]] uint64_t bytes() const;  ///< device memory of all images
 

@@ -50,8 +50,16 @@ class Player {
     barriers(plan_.frame_start);
     touch(kFrameInputs, Access::transfer_write, 0, frame, "upload");
     barriers(plan_.inputs_ready);
+    if (frame == 0) {
+      steps(plan_.once, frame);
+      barriers(plan_.once_barriers);
+    }
     copies(plan_.opening_copies, frame);
-    for (const PlanStep& step : plan_.steps) {
+    steps(plan_.steps, frame);
+  }
+
+  void steps(const std::vector<PlanStep>& list, int frame) {
+    for (const PlanStep& step : list) {
       barriers(step.barriers);
       const GraphPass& pass = plan_.graph.passes[step.pass];
       read(kFrameInputs, Access::frame_input_read, 0, frame, pass.name);
@@ -85,6 +93,27 @@ class Player {
     return value == kFrameInputs ? 1 : static_cast<int>(ring_layers(plan_.graph.values[value]));
   }
 
+  /// The step of `list` whose pass writes the value.
+  const GraphPass* writer(const std::vector<PlanStep>& list, ValueId value) const {
+    const auto writes = [value](const Use& use) { return use.value == value; };
+    for (const PlanStep& step : list) {
+      const GraphPass& pass = plan_.graph.passes[step.pass];
+      for (const auto* uses : {&pass.outputs, &pass.scratch})
+        if (std::any_of(uses->begin(), uses->end(), writes)) return &pass;
+    }
+    return nullptr;
+  }
+
+  bool once(ValueId value) const { return writer(plan_.once, value) != nullptr; }
+
+  /// Does its pass find its own work of the frame before in it?
+  bool keeps(ValueId value) const {
+    const GraphPass* pass = value == kFrameInputs || ring(value) > 1 ? nullptr : writer(plan_.steps, value);
+    return pass != nullptr && std::any_of(pass->type->ports.begin(), pass->type->ports.end(), [&](const Port& port) {
+             return port.direction != Direction::in && port.name == plan_.graph.values[value].port && port.persistent;
+           });
+  }
+
   Event& touch(ValueId value, Access access, int layer, int frame, const std::string& who) {
     Event event;
     event.access = access;
@@ -101,7 +130,7 @@ class Player {
   void read(ValueId value, Access access, uint32_t age, int frame, const std::string& who) {
     const int layers = ring(value);
     const bool constant = value != kFrameInputs && plan_.graph.values[value].constant.has_value();
-    const int written = constant ? -1 : frame - static_cast<int>(age);
+    const int written = constant ? -1 : once(value) ? 0 : frame - static_cast<int>(age);
     Event& event = touch(value, access, constant ? 0 : ((written % layers) + layers) % layers, frame, who);
     event.content = std::max(written, -1);
   }
@@ -113,6 +142,9 @@ class Player {
   }
 
   void check(ValueId value, const std::vector<Event>& events) {
+    const auto first = std::find_if(events.begin(), events.end(), [](const Event& event) { return !event.is_barrier; });
+    if (first != events.end() && first->frame >= 0 && keeps(value))
+      complain(value, first->who + " rewrites a part of what nobody wrote");
     for (std::size_t i = 0; i < events.size() && problems_.size() < limit_; ++i) {
       if (events[i].is_barrier) continue;
       if (!access_info(events[i].access).writes) check_content(value, events, i);

@@ -84,6 +84,21 @@ TEST(PassRegistry, RefusesTablesThatContradictThemselves) {
        }},
       {"bypass on an input", [](PassType& t) { t.ports[0].bypass = Bypass{}; }},
       {"optional output", [](PassType& t) { t.ports[1].optional = true; }},
+      {"persistent input", [](PassType& t) { t.ports[0].persistent = true; }},
+      {"persistent depth attachment",
+       [](PassType& t) {
+         t.ports[1].persistent = true;
+         t.ports[1].access = Access::depth_attachment_write;
+       }},
+      {"reads more than declared",
+       [](PassType& t) { t.reads_with = [](const ParamSet&) { return FrameState::time; }; }},
+      {"reads more than declared with a choice",
+       [](PassType& t) {
+         t.reads = FrameState::camera;
+         t.reads_with = [](const ParamSet& p) {
+           return p.choice("c") == "q" ? FrameState::camera | FrameState::seed : FrameState::camera;
+         };
+       }},
       {"grid without resolution",
        [](PassType& t) {
          t.ports[1].extent = ExtentRule::grid;

@@ -10,13 +10,13 @@ namespace {
 
 class Generator {
  public:
-  Generator(uint32_t seed, int passes) : random_(seed), kinds_(static_cast<std::size_t>(passes)) {
+  Generator(uint32_t seed, int passes) : random_(seed), calm_(seed % 2 == 1), kinds_(static_cast<std::size_t>(passes)) {
     for (auto& kind : kinds_) kind = random_() % (kPairs + 1);
     kinds_[0] = 0;
   }
 
   std::string run() {
-    std::string passes = "\"p0\": {\"type\": \"source\"},\n\"r0\": {\"type\": \"raster\"}";
+    std::string passes = "\"p0\": {\"type\": \"" + source() + "\"},\n\"r0\": {\"type\": \"raster\"}";
     images_ = {"p0.a", "r0.p.u"};
     pairs_ = {"r0.p"};
     for (std::size_t i = 1; i < kinds_.size(); ++i) passes += ",\n" + next_pass("p" + std::to_string(i), kinds_[i]);
@@ -29,7 +29,9 @@ class Generator {
   bool one_in(uint32_t n) { return random_() % n == 0; }
   std::string any(const std::vector<std::string>& list) { return list[random_() % list.size()]; }
 
-  std::string image() { return "\"" + any(images_) + (one_in(5) ? age() : "") + "\""; }
+  std::string image() { return "\"" + any(images_) + (one_in(calm_ ? 20 : 5) ? age() : "") + "\""; }
+  /// In every second graph nothing changes but what `raster` and histories bring in.
+  std::string source() { return calm_ || one_in(4) ? "still" : "source"; }
   std::string age() { return "@" + std::to_string(1 + random_() % 3); }
 
   /// Also of a pass that comes later: only history may look ahead.
@@ -42,7 +44,7 @@ class Generator {
     std::string text = "\"" + name + "\": {\"type\": \"";
     switch (kind) {
       case 0:
-        text += one_in(2) ? "source\"" : "black\", \"in\": {\"x\": " + image() + "}";
+        text += one_in(2) ? source() + "\"" : "black\", \"in\": {\"x\": " + image() + "}";
         break;
       case 1:
         text += "filter\", \"in\": {\"x\": " + image() + (one_in(2) ? ", \"y\": " + image() : "") + "}" + maybe_off();
@@ -58,7 +60,7 @@ class Generator {
         text += "accumulate\", \"in\": {\"x\": " + image() + ", \"last\": \"" + name + ".a@1\"}";
         break;
       case 5:
-        text += "shade\", \"in\": {\"x\": " + image() + "}";
+        text += std::string(one_in(2) ? "shade" : "patch") + "\", \"in\": {\"x\": " + image() + "}";
         break;
       case 6:
         text += "pick\", \"in\": {\"p\": \"" + any(pairs_) + (one_in(4) ? age() : "") + "\"}";
@@ -79,6 +81,7 @@ class Generator {
   std::string maybe_off() { return one_in(4) ? ", \"enabled\": false" : ""; }
 
   std::mt19937 random_;
+  bool calm_;
   static constexpr uint64_t kSink = 7;  // the kinds from here on have no output `a`
   static constexpr uint64_t kPairs = 8;
   std::vector<uint64_t> kinds_;

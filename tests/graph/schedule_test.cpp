@@ -59,14 +59,16 @@ TEST(Schedule, RandomGraphsRunProducersFirst) {
   for (uint32_t seed = 0; seed < 200; ++seed) {
     const Plan plan = plan_of(toy::random_graph(seed, 12));
     std::map<ValueId, bool> written;
-    for (const PlanStep& step : plan.steps) {
-      const GraphPass& pass = plan.graph.passes[step.pass];
-      for (const Use& use : pass.inputs)
-        EXPECT_TRUE(use.first_age > 0 || written[use.value] || plan.graph.values[use.value].constant)
-            << "seed " << seed;
-      for (const Use& use : pass.outputs) written[use.value] = true;
+    for (const std::vector<PlanStep>* steps : {&plan.once, &plan.steps}) {
+      for (const PlanStep& step : *steps) {
+        const GraphPass& pass = plan.graph.passes[step.pass];
+        for (const Use& use : pass.inputs)
+          EXPECT_TRUE(use.first_age > 0 || written[use.value] || plan.graph.values[use.value].constant)
+              << "seed " << seed;
+        for (const Use& use : pass.outputs) written[use.value] = true;
+      }
     }
-    EXPECT_EQ(plan.steps.size(), plan.graph.passes.size());
+    EXPECT_EQ(plan.once.size() + plan.steps.size(), plan.graph.passes.size());
   }
 }
 

@@ -18,10 +18,13 @@ void for_each_list(Plan& plan, Visit visit) {
   visit(plan.prologue_barriers);
   visit(plan.frame_start);
   visit(plan.inputs_ready);
+  visit(plan.once_barriers);
   for (Copy& copy : plan.opening_copies) visit(copy.barriers);
-  for (PlanStep& step : plan.steps) {
-    visit(step.barriers);
-    for (Copy& copy : step.copies) visit(copy.barriers);
+  for (std::vector<PlanStep>* steps : {&plan.once, &plan.steps}) {
+    for (PlanStep& step : *steps) {
+      visit(step.barriers);
+      for (Copy& copy : step.copies) visit(copy.barriers);
+    }
   }
 }
 
@@ -112,6 +115,7 @@ TEST(Synchronise, CopiesStandRightBehindTheProducer) {
 TEST(Synchronise, ConstantsAreClearedOnceAndNeverWaitedForAgain) {
   LinkOptions options;
   options.disables = {"b"};
+  options.hoist = false;
   const Plan plan = plan_of(file(R"("s": {"type": "source"}, "b": {"type": "black", "in": {"x": "s.a"}},
                                    "f": {"type": "filter", "in": {"x": "b.a"}})",
                                  R"("o": "f.a", "k": "b.a")"),
@@ -122,6 +126,43 @@ TEST(Synchronise, ConstantsAreClearedOnceAndNeverWaitedForAgain) {
   EXPECT_EQ(toy::order(plan), std::vector<std::string>{"f"});
   EXPECT_EQ(on_value(plan, "b.a"),
             (std::vector<std::string>{"transfer_write -> compute_sampled_read", "transfer_write -> transfer_read"}));
+  EXPECT_TRUE(find_hazards(plan).empty());
+}
+
+TEST(Synchronise, WhatIsWrittenOnceIsWaitedForOnce) {
+  LinkOptions options;
+  options.captures = {"k.a", "m.tmp"};
+  const Plan plan = plan_of(file(R"("k": {"type": "still"}, "s": {"type": "source"},
+      "m": {"type": "mix", "in": {"x": "k.a", "y": "k.a"}},
+      "f": {"type": "filter", "in": {"x": "k.a"}}, "g": {"type": "mix", "in": {"x": "f.a", "y": "s.a"}},
+      "h": {"type": "shade", "in": {"x": "m.a"}}, "i": {"type": "mix", "in": {"x": "g.a", "y": "m.a"}})",
+                                 R"("o": "i.a", "p": "h.a")"),
+                            options);
+  ASSERT_EQ(plan.once.size(), 4U) << print_plan(plan);
+  // Before the first to read it, who is hoisted as well, for all who ever do; never again.
+  EXPECT_EQ(on_value(plan, "k.a"), (std::vector<std::string>{"compute_storage_write -> compute_sampled_read",
+                                                             "compute_storage_write -> transfer_read"}));
+  EXPECT_EQ(plan.once[1].barriers.size(), 2U);
+  // Where frames alone read it: after the last of those that run once.
+  EXPECT_EQ(on_value(plan, "f.a"), (std::vector<std::string>{"compute_storage_write -> compute_sampled_read"}));
+  EXPECT_EQ(on_value(plan, "m.tmp"), (std::vector<std::string>{"compute_storage_read_write -> transfer_read"}));
+  EXPECT_EQ(on_value(plan, "h.a"), (std::vector<std::string>{"color_attachment_write -> transfer_read"}));
+  EXPECT_EQ(plan.opening_copies.size(), 3U);
+  EXPECT_TRUE(find_hazards(plan).empty());
+}
+
+TEST(Synchronise, APersistentValueIsClearedOnceAndThenARound) {
+  const Plan plan = plan_of(file(R"("s": {"type": "source"}, "p": {"type": "patch", "in": {"x": "s.a"}},
+      "f": {"type": "shade", "in": {"x": "p.a"}})",
+                                 R"("o": "f.a")"));
+  ASSERT_EQ(plan.prologue.size(), 2U) << print_plan(plan);
+  EXPECT_EQ(on_value(plan, "p.a"),
+            (std::vector<std::string>{"transfer_write -> compute_storage_write",
+                                      "fragment_sampled_read -> compute_storage_write (previous frame)",
+                                      "compute_storage_write -> fragment_sampled_read"}));
+  EXPECT_EQ(on_value(plan, "p.memo"),
+            (std::vector<std::string>{"transfer_write -> compute_storage_read_write",
+                                      "compute_storage_read_write -> compute_storage_read_write (previous frame)"}));
   EXPECT_TRUE(find_hazards(plan).empty());
 }
 
@@ -156,6 +197,8 @@ TEST(Synchronise, RandomGraphsHaveNoHazardAndNoSuperfluousBarrier) {
   Mutants mutants;
   std::size_t steps = 0;
   std::size_t rings = 0;
+  std::size_t once = 0;
+  std::size_t kept = 0;
   for (uint32_t seed = 0; seed < 300; ++seed) {
     LinkOptions options;
     if (seed % 3 == 1) options.captures = {"*"};
@@ -166,7 +209,11 @@ TEST(Synchronise, RandomGraphsHaveNoHazardAndNoSuperfluousBarrier) {
     if (seed < 60) expect_minimal(plan, mutants);
     if (testing::Test::HasFailure()) FAIL() << "seed " << seed;
     steps += plan.steps.size();
-    for (const Value& value : plan.graph.values) rings += value.history > 0 ? 1 : 0;
+    once += plan.once.size();
+    for (const Value& value : plan.graph.values) {
+      rings += value.history > 0 ? 1 : 0;
+      kept += value.persistent ? 1 : 0;
+    }
   }
   EXPECT_GT(mutants.found, 1000U);
   EXPECT_LT(mutants.superfluous * 100, mutants.found);
@@ -174,6 +221,8 @@ TEST(Synchronise, RandomGraphsHaveNoHazardAndNoSuperfluousBarrier) {
   RecordProperty("superfluous", static_cast<int>(mutants.superfluous));
   EXPECT_GT(steps, 1000U);
   EXPECT_GT(rings, 200U);
+  EXPECT_GT(once, 150U);
+  EXPECT_GT(kept, 50U);
 }
 
 TEST(HazardChecker, SeesAReadOfTheWrongFrame) {
@@ -188,6 +237,13 @@ TEST(HazardChecker, SeesAReadOfTheWrongFrame) {
 TEST(HazardChecker, SeesAMissingClear) {
   Plan plan = plan_of(file(R"("s": {"type": "source"}, "t": {"type": "trail", "in": {"x": "s.a", "past": "s.a@1..3"}})",
                            R"("o": "t.a")"));
+  plan.prologue.clear();
+  EXPECT_FALSE(find_hazards(plan).empty());
+}
+
+TEST(HazardChecker, SeesAPersistentValueThatWasNeverCleared) {
+  Plan plan = plan_of(file(R"("s": {"type": "source"}, "p": {"type": "patch", "in": {"x": "s.a"}})", R"("o": "p.a")"));
+  ASSERT_TRUE(find_hazards(plan).empty());
   plan.prologue.clear();
   EXPECT_FALSE(find_hazards(plan).empty());
 }

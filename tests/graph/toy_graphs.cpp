@@ -69,20 +69,44 @@ PassType type(const std::string& name, std::vector<Port> ports, std::vector<Para
   return result;
 }
 
+/// Gives something else in each frame.
+PassType moving(PassType result) {
+  result.reads = FrameState::camera;
+  return result;
+}
+
+PassType still(PassType result) {
+  result.reads = FrameState::static_geometry | FrameState::materials;
+  return result;
+}
+
+Port kept(Port port) {
+  port.persistent = true;
+  return port;
+}
+
 void add_sources(PassRegistry& types) {
-  types.add(type("source", {output("a", ExtentRule::view)},
-                 {{"level", ParamType::real, 0.5, 0, 1, {}, "", ""},
-                  {"count", ParamType::integer, int64_t{2}, 1, 8, {}, "pixels", ""},
-                  {"mode", ParamType::choice, std::string("one"), {}, {}, {"one", "two"}, "", ""},
-                  {"flag", ParamType::boolean, false, {}, {}, {}, "", ""}}));
-  types.add(type("small", {output("a", ExtentRule::trace)}));
+  types.add(still(type("still", {output("a", ExtentRule::view)})));
+  PassType body = type("body", {output("a", ExtentRule::view)},
+                       {{"geometry", ParamType::choice, std::string("static"), {}, {}, {"static", "dynamic"}, "", ""}});
+  body.reads = FrameState::static_geometry | FrameState::dynamic_geometry;
+  body.reads_with = [](const ParamSet& params) {
+    return params.choice("geometry") == "static" ? FrameState::static_geometry : FrameState::dynamic_geometry;
+  };
+  types.add(body);
+  types.add(moving(type("source", {output("a", ExtentRule::view)},
+                        {{"level", ParamType::real, 0.5, 0, 1, {}, "", ""},
+                         {"count", ParamType::integer, int64_t{2}, 1, 8, {}, "pixels", ""},
+                         {"mode", ParamType::choice, std::string("one"), {}, {}, {"one", "two"}, "", ""},
+                         {"flag", ParamType::boolean, false, {}, {}, {}, "", ""}})));
+  types.add(moving(type("small", {output("a", ExtentRule::trace)})));
   Port ids = output("a", ExtentRule::view);
   ids.parts = {{"", Format::r32_uint, ""}};
-  types.add(type("ids", {ids}));
-  types.add(type("raster", {attachment(pair(output("p", ExtentRule::view))),
-                            scratch("depth", ExtentRule::view, "", Access::depth_attachment_write)}));
-  types.add(type("volume", {volume(output("v", ExtentRule::grid))},
-                 {{"resolution", ParamType::integer, int64_t{16}, 1, 512, {}, "voxels", ""}}));
+  types.add(moving(type("ids", {ids})));
+  types.add(moving(type("raster", {attachment(pair(output("p", ExtentRule::view))),
+                                   scratch("depth", ExtentRule::view, "", Access::depth_attachment_write)})));
+  types.add(moving(type("volume", {volume(output("v", ExtentRule::grid))},
+                        {{"resolution", ParamType::integer, int64_t{16}, 1, 512, {}, "voxels", ""}})));
 }
 
 void add_filters(PassRegistry& types) {
@@ -94,6 +118,8 @@ void add_filters(PassRegistry& types) {
                  {strength(), {"taps", ParamType::integer, int64_t{5}, 1, 99, {}, "", ""}}));
   types.add(type("mix", {input("x"), like_x("y"), like,
                          scratch("tmp", ExtentRule::like, "x", Access::compute_storage_read_write)}));
+  types.add(type("patch", {input("x"), kept(bypassed(like, "x")),
+                           kept(scratch("memo", ExtentRule::like, "x", Access::compute_storage_read_write))}));
   Port black = like;
   black.bypass = Bypass{"", {0, 0, 0, 1}};
   types.add(type("black", {input("x"), black}));
@@ -139,7 +165,8 @@ LinkEnvironment environment(bool dynamic) {
             const auto edge = static_cast<uint32_t>(resolution);
             return Extent3{edge, edge / 2 + 1, edge};
           },
-          {{"dynamic", dynamic}, {"sun", true}}};
+          {{"dynamic", dynamic}, {"sun", true}},
+          dynamic ? kChangingState : FrameState::camera | FrameState::time | FrameState::seed | FrameState::lights};
 }
 
 Result link_text(const std::string& text, const LinkOptions& options, const PassRegistry& types,
