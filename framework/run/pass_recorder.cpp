@@ -68,8 +68,6 @@ bool PassRecorder::wanted(std::string_view output_port) const {
 }
 
 std::vector<VoxelBox> PassRecorder::moved_boxes(const Extent3& grid) const {
-  if (!contains(pass_.type->reads_of(pass_.params), FrameState::dynamic_geometry))
-    fail(pass_, "asks what moved, but does not declare to read dynamic geometry");
   if (dynamic_triangles().count == 0) return {};
   const auto last = [](uint32_t length) { return static_cast<int32_t>(length) - 1; };
   return {{{0, 0, 0}, {last(grid.width), last(grid.height), last(grid.depth)}}};
