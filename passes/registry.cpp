@@ -9,6 +9,8 @@
 #include "passes/temporal_accumulate.hpp"
 #include "passes/tonemap.hpp"
 #include "passes/upsample.hpp"
+#include "passes/view_surface.hpp"
+#include "passes/view_voxels.hpp"
 #include "passes/voxel_merge.hpp"
 #include "passes/voxel_path_trace.hpp"
 #include "passes/voxelize.hpp"
@@ -28,6 +30,8 @@ void register_builtin_passes(PassRegistry& registry) {
   registry.add(make_upsample());
   registry.add(make_modulate());
   registry.add(make_tonemap());
+  registry.add(make_view_surface());
+  registry.add(make_view_voxels());
 }
 
 }  // namespace lightloom::passes

@@ -7,6 +7,7 @@
 #include "lib/modulation.glsl"
 #include "lib/sampling.glsl"
 #include "lib/scene.glsl"
+#include "lib/view_ray.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -20,13 +21,6 @@ uniform texture2D surface_albedo;
 uniform texture2D surface_material;
 uniform texture2D surface_emission;
 uniform writeonly image2D out_radiance;
-
-vec3 view_direction(ivec2 pixel, ivec2 size) {
-  if (frame.eye[0].w < 0.5) return -frame.eye[0].xyz;
-  vec2 ndc = (vec2(pixel) + 0.5) / vec2(size) * 2.0 - 1.0;
-  vec4 point = frame.inverse_view_projection * vec4(ndc, 0.5, 1.0);
-  return normalize(point.xyz / point.w - frame.eye[0].xyz);
-}
 
 // `cosine`: between the shading normal and the direction to the viewer, as the tracer takes it.
 vec3 reflected_radiance(ivec2 pixel, Bsdf bsdf, float cosine) {
@@ -54,6 +48,6 @@ void main() {
   if (any(greaterThanEqual(pixel, size))) return;
   vec4 position = texelFetch(surface_position, pixel, 0);
   vec4 result = position.w > 0.0 ? vec4(surface_radiance(pixel, position.xyz), 1.0)
-                                 : vec4(environment_radiance(view_direction(pixel, size)), 0.0);
+                                 : vec4(environment_radiance(view_ray(pixel, size).direction), 0.0);
   imageStore(out_radiance, pixel, result);
 }

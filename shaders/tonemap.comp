@@ -3,6 +3,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
 
+#include "lib/color.glsl"
 #include "lib/sampling.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -17,10 +18,6 @@ layout(push_constant) uniform Params {
 
 // K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2016.
 vec3 filmic(vec3 x) { return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14); }
-
-vec3 encode_srgb(vec3 x) {
-  return mix(1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, 12.92 * x, lessThanEqual(x, vec3(0.0031308)));
-}
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
