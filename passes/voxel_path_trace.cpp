@@ -73,6 +73,10 @@ std::vector<Param> params() {
       choice("sun", "disc", {"delta", "disc"},
              "disc: the sun has the scene's angular radius, with soft shadows and a reflection; delta: it has none; "
              "the irradiance is the same"),
+      choice("environment_sampling", "image", {"off", "image"},
+             "image: directions are drawn by the light of the environment's image, and shared with scattered rays; a "
+             "constant environment is drawn from only with strategy nee; off (the paper): scattered rays find it by "
+             "chance, whatever the strategy"),
   };
 }
 

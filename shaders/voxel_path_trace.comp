@@ -7,7 +7,6 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
 
-#include "lib/environment.glsl"
 #include "lib/features.glsl"
 #include "lib/lights.glsl"
 #include "lib/modulation.glsl"
@@ -95,7 +94,7 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
     if (dot(direction, vertex.geometric_normal) <= 0.0) break;
     MarchHit hit = march_ray(distance, vertex.origin, direction, kFarAway);
     if (!hit.hit) {
-      radiance += throughput * (environment_radiance(direction) + sun_hit(direction, scatter));
+      radiance += throughput * (environment_hit(direction, scatter) + sun_hit(direction, scatter));
       break;
     }
     VoxelSurface surface =

@@ -1,7 +1,9 @@
-// Next event estimation at a vertex of a path: one sample of the emissive surfaces, one of the sun, one punctual light.
+// Next event estimation at a vertex of a path: one sample of the emissive surfaces, one of the sun, one of the
+// environment, one punctual light.
 #ifndef LIGHTLOOM_LIB_LIGHTS
 #define LIGHTLOOM_LIB_LIGHTS
 
+#include "lib/environment_light.glsl"
 #include "lib/hints.glsl"
 #include "lib/punctual.glsl"
 #include "lib/random.glsl"
@@ -13,6 +15,8 @@ PerLobe direct_light(Grid grid, texture3D distance_field, texture3D material, Pa
   vec4 u = random4(key, bounce, kDimensionLight);
   PerLobe light = hint_light(grid, distance_field, material, vertex, u.x);
   light = sum_of(light, sun_light(distance_field, vertex, u.yz));
+  if (environment_sampled())
+    light = sum_of(light, environment_light(distance_field, vertex, random4(key, bounce, kDimensionEnvironment)));
   return sum_of(light, punctual_light(grid, distance_field, material, vertex, u.w));
 }
 

@@ -6,6 +6,7 @@
 // decisions share numbers.
 const uint kDimensionLight = 0u;     // which hint, which punctual light, where on the sun's disc
 const uint kDimensionScatter = 1u;   // which lobe, direction
+const uint kDimensionEnvironment = 2u;   // direction from which light of the environment comes
 
 struct RandomKey {
   uvec2 pixel;   // below 65536 each

@@ -1,0 +1,59 @@
+#include "tests/passes/light_scenes.hpp"
+
+namespace lightloom::test {
+
+std::vector<Images> trace_frames(const scene::Scene& scene, const TraceSettings& settings) {
+  const uint32_t size = settings.size;
+  const std::string text = graph_text(size, size, size, size, trace_passes(settings.resolution, settings.params),
+                                      R"("radiance": "trace.radiance", "position": "gather.surface.position",
+                                         "material": "gather.surface.material")");
+  GraphRunOptions options;
+  options.frames = settings.frames;
+  options.seed = settings.seed;
+  return run_graph(text, scene, options);
+}
+
+std::vector<Estimate> block_estimates(const std::vector<Images>& frames, uint32_t channel, uint32_t block) {
+  const Extent3 extent = frames.front().at("radiance").desc.extent;
+  const uint32_t across = extent.width / block, down = extent.height / block;
+  std::vector<Estimate> blocks(size_t{across} * down);
+  for (const Images& images : frames)
+    for (uint32_t y = 0; y < down; ++y)
+      for (uint32_t x = 0; x < across; ++x)
+        blocks[size_t{y} * across + x].add(
+            mean_of(images.at("radiance"), channel, x * block, y * block, (x + 1) * block, (y + 1) * block));
+  return blocks;
+}
+
+Estimate frame_estimate(const std::vector<Images>& frames, uint32_t channel) {
+  const Extent3 extent = frames.front().at("radiance").desc.extent;
+  Estimate estimate;
+  for (const Images& images : frames)
+    estimate.add(mean_of(images.at("radiance"), channel, 0, 0, extent.width, extent.height));
+  return estimate;
+}
+
+void add_pixels(Estimate& estimate, const Images& images, uint32_t channel, uint32_t x0, uint32_t x1) {
+  const image::HostImage& radiance = images.at("radiance");
+  for (uint32_t y = 0; y < radiance.desc.extent.height; ++y)
+    for (uint32_t x = x0; x < x1; ++x)
+      if (radiance.at(x, y, 0, 3) > 0) estimate.add(radiance.at(x, y, 0, channel));
+}
+
+scene::Camera orthographic(const glm::vec3& eye, const glm::vec3& target, float half_height, const glm::vec3& up) {
+  scene::Camera camera = look_at(eye, target, 1, up);
+  camera.perspective = false;
+  camera.half_height = half_height;
+  return camera;
+}
+
+glm::dvec3 surface_position(const Images& images, uint32_t x, uint32_t y) {
+  const image::HostImage& position = images.at("position");
+  return {position.at(x, y, 0, 0), position.at(x, y, 0, 1), position.at(x, y, 0, 2)};
+}
+
+QuadSpec square_floor(float half_width, uint32_t material) {
+  return {{-half_width, 0, half_width}, {2 * half_width, 0, 0}, {0, 0, -2 * half_width}, material};
+}
+
+}  // namespace lightloom::test
