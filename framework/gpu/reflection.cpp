@@ -55,11 +55,21 @@ void read_image(const SpirvReader& reader, const spvc_reflected_resource& resour
   binding.writable = spvc_compiler_has_decoration(reader.get(), resource.id, SpvDecorationNonWritable) == SPVC_FALSE;
 }
 
+void mark_used(const SpirvReader& reader, const spvc_reflected_resource& resource, std::vector<BlockMember>& members) {
+  const spvc_buffer_range* ranges = nullptr;
+  size_t count = 0;
+  reader.check(spvc_compiler_get_active_buffer_ranges(reader.get(), resource.id, &ranges, &count));
+  for (size_t i = 0; i < members.size(); ++i)
+    members[i].used =
+        std::any_of(ranges, ranges + count, [i](const spvc_buffer_range& range) { return range.index == i; });
+}
+
 /// What only buffers have.
 void read_block(const SpirvReader& reader, const spvc_reflected_resource& resource, Binding& binding) {
   binding.name = spvc_compiler_get_name(reader.get(), resource.base_type_id);
   const spvc_type type = spvc_compiler_get_type_handle(reader.get(), resource.base_type_id);
   binding.members = struct_members(reader, type);
+  mark_used(reader, resource, binding.members);
   size_t size = 0;
   reader.check(spvc_compiler_get_declared_struct_size(reader.get(), type, &size));
   binding.block_size = static_cast<uint32_t>(size);
@@ -112,6 +122,8 @@ void merge_binding(Reflection& reflection, Binding binding, VkShaderStageFlags s
     other.stages |= stage;
     other.readable = other.readable || binding.readable;
     other.writable = other.writable || binding.writable;
+    for (size_t i = 0; i < other.members.size(); ++i)
+      other.members[i].used = other.members[i].used || binding.members.at(i).used;
     return;
   }
   binding.stages = stage;

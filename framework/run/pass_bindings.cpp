@@ -24,20 +24,34 @@ ShaderValue shader_value(const ParamSet& params, const ParamSet::Entry& entry) {
 }
 
 struct DeclaredRead {
-  std::string_view binding;
-  std::array<FrameState, 2> any_of;
+  std::string_view name;  ///< of a binding, or of a member of the frame block
+  FrameState any_of = FrameState::none;
 };
 
-/// FrameBlock is open to all: it holds the bounds of the scene, which never change.
-constexpr std::array kDeclaredReads = {
-    DeclaredRead{"VertexBlock", {FrameState::static_geometry, FrameState::dynamic_geometry}},
-    DeclaredRead{"TriangleBlock", {FrameState::static_geometry, FrameState::dynamic_geometry}},
-    DeclaredRead{"MaterialBlock", {FrameState::materials, FrameState::materials}},
-    DeclaredRead{"texture_pages", {FrameState::materials, FrameState::materials}},
-    DeclaredRead{"LightBlock", {FrameState::lights, FrameState::lights}},
-    DeclaredRead{"environment_map", {FrameState::lights, FrameState::lights}},
-    DeclaredRead{"environment_table", {FrameState::lights, FrameState::lights}},
+constexpr FrameState kGeometry = FrameState::static_geometry | FrameState::dynamic_geometry;
+constexpr std::array kBindings = {
+    DeclaredRead{"VertexBlock", kGeometry},
+    DeclaredRead{"TriangleBlock", kGeometry},
+    DeclaredRead{"MaterialBlock", FrameState::materials},
+    DeclaredRead{"texture_pages", FrameState::materials},
+    DeclaredRead{"LightBlock", FrameState::lights},
+    DeclaredRead{"environment_map", FrameState::lights},
 };
+/// The rest of the frame block is the same in every frame.
+constexpr std::array kFrameMembers = {
+    DeclaredRead{"view_projection", FrameState::camera},
+    DeclaredRead{"eye", FrameState::camera},
+    DeclaredRead{"inverse_view_projection", FrameState::camera},
+    // Which frame it is, the seed, and how many frames the histories hold, which goes with the cameras of the past.
+    DeclaredRead{"ids", FrameState::time | FrameState::seed | FrameState::camera},
+};
+
+template <size_t N>
+bool declared(const std::array<DeclaredRead, N>& rows, std::string_view name, FrameState reads) {
+  return std::all_of(rows.begin(), rows.end(), [&](const DeclaredRead& row) {
+    return row.name != name || (row.any_of & reads) != FrameState::none;
+  });
+}
 
 }  // namespace
 
@@ -91,17 +105,17 @@ std::vector<ShaderValue> specialization_values(const gpu::Reflection& reflection
   return chosen;
 }
 
-void require_declared_read(const GraphPass& pass, std::string_view binding, std::string_view shader) {
-  const auto* row = std::find_if(kDeclaredReads.begin(), kDeclaredReads.end(),
-                                 [&](const DeclaredRead& read) { return read.binding == binding; });
-  if (row == kDeclaredReads.end()) return;
+void require_declared_read(const GraphPass& pass, const gpu::Binding& binding, std::string_view shader) {
   const FrameState reads = pass.type->reads_of(pass.params);
-  const bool declared =
-      std::any_of(row->any_of.begin(), row->any_of.end(), [&](FrameState state) { return contains(reads, state); });
-  if (declared) return;
+  std::string undeclared;
+  if (!declared(kBindings, binding.name, reads)) undeclared = binding.name;
+  if (binding.name == "FrameBlock")
+    for (const gpu::BlockMember& member : binding.members)
+      if (member.used && !declared(kFrameMembers, member.name, reads)) undeclared = "FrameBlock." + member.name;
+  if (undeclared.empty()) return;
   throw Error(ExitCode::run_failed,
               "pass '" + pass.name + "' (" + pass.type->name + "): shader '" + std::string(shader) + "' reads '" +
-                  std::string(binding) + "', which the pass type does not declare among what it reads with its params",
+                  undeclared + "', which the pass type does not declare among what it reads with its params",
               "add the frame state to PassType::reads or reads_with");
 }
 

@@ -119,7 +119,7 @@ VkDescriptorSet PassRecorder::bind_resources(const gpu::Pipeline& pipeline) cons
     if (const auto own = resources_.find(binding.name); own != resources_.end()) return &own->second;
     if (const auto shared = environment_.scene->resources.find(binding.name);
         shared != environment_.scene->resources.end()) {
-      require_declared_read(pass_, binding.name, pipeline.reflection().name);
+      require_declared_read(pass_, binding, pipeline.reflection().name);
       return &shared->second;
     }
     if (!names_unconnected_input(pass_, binding.name)) return nullptr;

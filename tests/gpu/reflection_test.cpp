@@ -99,6 +99,24 @@ TEST_F(ReflectionTest, LeavesOutWhatIsNotUsed) {
   EXPECT_EQ(reflection().bindings.size(), 12u);
 }
 
+TEST_F(ReflectionTest, KnowsWhichMembersOfABlockAreUsed) {
+  for (const BlockMember& member : binding("FrameBlock").members) EXPECT_TRUE(member.used) << member.name;
+  const ShaderProgram program = compile_compute(R"(
+layout(local_size_x = 1) in;
+layout(constant_id = 0) const bool other = false;
+layout(std140) uniform Block { mat4 matrices[4]; uvec4 ids; vec4 a; vec4 b; vec4 c; } block;
+layout(std430) buffer LogBlock { vec4 log[]; };
+vec4 helper(uint i) { return block.matrices[i][1]; }
+vec4 dead() { return block.c; }
+void main() {
+  log[0] = helper(gl_GlobalInvocationID.x);
+  if (other) log[0].x += float(block.ids.z);
+  else log[0].y = block.a.w;
+})");
+  for (const BlockMember& member : program.reflection.find_binding("Block")->members)
+    EXPECT_EQ(member.used, member.name != "b" && member.name != "c") << member.name;
+}
+
 TEST_F(ReflectionTest, GivesEachResourceItsOwnBindingInSet0) {
   uint32_t next_free = 0;
   for (const Binding& one : reflection().bindings) {

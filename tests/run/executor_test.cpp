@@ -6,6 +6,7 @@
 
 #include "framework/base/error.hpp"
 #include "framework/graph/graph_spec.hpp"
+#include "tests/run/toy_types.hpp"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/graph_runner.hpp"
 #include "tests/support/source_dir.hpp"
@@ -15,28 +16,9 @@ namespace {
 
 using test::GraphRunOptions;
 using test::Images;
-
-Port image_port(const std::string& name, Direction direction) {
-  Port port;
-  port.name = name;
-  port.direction = direction;
-  port.parts = {{"", Format::r32_sfloat, ""}};
-  port.extent = direction == Direction::out ? ExtentRule::trace : ExtentRule::any;
-  port.access = direction == Direction::out ? Access::compute_storage_write : Access::compute_sampled_read;
-  return port;
-}
-
-PassType one_shader_type(const std::string& name, std::vector<Port> ports, const std::string& shader,
-                         const std::string& output) {
-  PassType type;
-  type.name = name;
-  type.doc = "For tests.";
-  type.ports = std::move(ports);
-  type.record = [shader, output](PassContext& context) {
-    context.dispatch({shader, context.output_extent(output), {}});
-  };
-  return type;
-}
+using toy::image_port;
+using toy::one_quad;
+using toy::one_shader_type;
 
 PassType counter_type() {
   PassType type =
@@ -57,11 +39,6 @@ PassType optional_type() {
   Port guide = image_port("guide", Direction::in);
   guide.optional = true;
   return one_shader_type("test_optional", {guide, image_port("seen", Direction::out)}, "test_optional.comp", "seen");
-}
-
-scene::Scene one_quad() {
-  return test::make_quad_scene({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0}}, {},
-                               test::look_at({0.5f, 0.5f, 2}, {0.5f, 0.5f, 0}, 0.8f));
 }
 
 constexpr const char* kCounter = R"({
@@ -158,6 +135,76 @@ TEST_F(ExecutorTest, AShaderMayNotReadWhatItsPassTypeDoesNotDeclare) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("MaterialBlock"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("counter"), std::string::npos) << error.what();
+  }
+}
+
+/// The message of the error that a type made of this shader runs into; empty if it runs.
+std::string error_of(const PassType& type, const LinkOptions& link) {
+  GraphRunOptions options;
+  options.extra_types = {type};
+  options.link = link;
+  try {
+    static_cast<void>(run_graph(R"({ "lightloom": 1, "name": "reader",
+      "view": { "width": 4, "height": 4 }, "trace": { "width": 4, "height": 4 },
+      "passes": { "reader": { "type": "test_reader" } }, "outputs": { "o": "reader.)" +
+                                    type.ports[0].name + "\" } }",
+                                one_quad(), options));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST_F(ExecutorTest, WhatAShaderMayReadDependsOnTheParams) {
+  PassType type =
+      one_shader_type("test_reader", {image_port("count", Direction::out)}, "test_reads_materials.comp", "count");
+  type.params = {{"start", ParamType::real, 1.0, {}, {}, {}, "", ""},
+                 {"coloured", ParamType::boolean, true, {}, {}, {}, "", ""}};
+  type.reads = FrameState::materials;
+  type.reads_with = [](const ParamSet& params) {
+    return params.boolean("coloured") ? FrameState::materials : FrameState::none;
+  };
+  EXPECT_EQ(error_of(type, {}), "");
+  LinkOptions plain;
+  plain.sets = {{"reader.coloured", "false"}};
+  EXPECT_NE(error_of(type, plain).find("MaterialBlock"), std::string::npos);
+}
+
+TEST_F(ExecutorTest, WhatChangesInTheFrameBlockMustBeDeclared) {
+  PassType type = one_shader_type("test_reader", {image_port("ramp", Direction::out)}, "test_reads_frame.comp", "ramp");
+  type.reads = FrameState::materials | FrameState::lights | FrameState::static_geometry;
+  EXPECT_NE(error_of(type, {}).find("FrameBlock.ids"), std::string::npos);
+  for (const FrameState state : {FrameState::time, FrameState::seed}) {
+    type.reads = state;
+    EXPECT_EQ(error_of(type, {}), "");
+  }
+}
+
+TEST_F(ExecutorTest, AnOutputThatNobodyReadsIsNotWanted) {
+  std::vector<bool> wanted;
+  PassType type =
+      one_shader_type("test_wanted", {image_port("main", Direction::out), image_port("extra", Direction::out)},
+                      "test_wanted.comp", "main");
+  type.reads = FrameState::camera;
+  type.record = [&wanted, dispatch = type.record](PassContext& context) {
+    EXPECT_TRUE(context.wanted("main"));
+    wanted.push_back(context.wanted("extra"));
+    dispatch(context);
+  };
+  constexpr const char* kGraph = R"({ "lightloom": 1, "name": "wanted",
+      "view": { "width": 20, "height": 9 }, "trace": { "width": 20, "height": 9 },
+      "passes": { "two": { "type": "test_wanted" } }, "outputs": { "main": "two.main" } })";
+  GraphRunOptions options;
+  options.frames = 2;
+  options.extra_types = {type};
+  const std::vector<Images> alone = run_graph(kGraph, one_quad(), options);
+  options.capture = {"two.extra"};
+  const std::vector<Images> watched = run_graph(kGraph, one_quad(), options);
+  EXPECT_EQ(wanted, (std::vector<bool>{false, false, true, true}));
+  for (size_t frame = 0; frame < 2; ++frame) {
+    EXPECT_EQ(alone[frame].at("main").texels, watched[frame].at("main").texels);
+    EXPECT_EQ(watched[frame].at("two.extra").at(19, 8, 0, 0), 2 * watched[frame].at("main").at(19, 8, 0, 0));
+    EXPECT_GT(watched[frame].at("two.extra").at(0, 0, 0, 0), 0);
   }
 }
 
