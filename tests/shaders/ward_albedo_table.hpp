@@ -13,7 +13,7 @@ struct WardAlbedo {
 };
 
 /// Directional albedo of the three forms of Ward's lobe, by quadrature in double precision on 2000 x 720 points of
-/// Walter's map; absolute error below 1e-4 where the albedo is below 1.
+/// Walter's map; error below 1e-4 of the larger of 1 and the albedo, at 89.9 degrees below 3e-4.
 constexpr std::array kWardAlbedos = {
     WardAlbedo{0.05, 0.05, 0, 0, {0.99257, 0.99504, 0.9975}, 0},
     WardAlbedo{0.05, 0.05, 15, 0, {0.95879, 0.99504, 0.99741}, 0},
