@@ -109,9 +109,11 @@ void require_declared_read(const GraphPass& pass, const gpu::Binding& binding, s
   const FrameState reads = pass.type->reads_of(pass.params);
   std::string undeclared;
   if (!declared(kBindings, binding.name, reads)) undeclared = binding.name;
+  // A member may stand in a branch that these params do not take; the block is bound in any case.
   if (binding.name == "FrameBlock")
     for (const gpu::BlockMember& member : binding.members)
-      if (member.used && !declared(kFrameMembers, member.name, reads)) undeclared = "FrameBlock." + member.name;
+      if (member.used && !declared(kFrameMembers, member.name, pass.type->reads))
+        undeclared = "FrameBlock." + member.name;
   if (undeclared.empty()) return;
   throw Error(ExitCode::run_failed,
               "pass '" + pass.name + "' (" + pass.type->name + "): shader '" + std::string(shader) + "' reads '" +
