@@ -61,7 +61,7 @@ std::vector<Images> trace_with(const scene::Scene& scene, const std::string& par
 /// Compares means of 8 x 8 pixels by their standard errors.
 void expect_same_light(const std::vector<Images>& a, const std::vector<Images>& b, const std::string& what) {
   for (uint32_t channel = 0; channel < 3; ++channel) {
-    const std::vector<Estimate> first = block_estimates(a, channel, 8), second = block_estimates(b, channel, 8);
+    const std::vector<SampleMean> first = block_estimates(a, channel, 8), second = block_estimates(b, channel, 8);
     double sum = 0, count = 0;
     for (size_t k = 0; k < first.size(); ++k) {
       if (!std::isfinite(first[k].mean()) || !(first[k].error() > 0)) continue;  // background
@@ -72,7 +72,7 @@ void expect_same_light(const std::vector<Images>& a, const std::vector<Images>& 
     }
     ASSERT_GE(count, 10);
     EXPECT_LT(sum / count, 1.3) << what << ", channel " << channel;
-    const Estimate all = frame_estimate(a, channel), other = frame_estimate(b, channel);
+    const SampleMean all = frame_estimate(a, channel), other = frame_estimate(b, channel);
     EXPECT_LT(std::abs(all.mean() - other.mean()), 3 * std::hypot(all.error(), other.error())) << what;
   }
 }
@@ -107,9 +107,9 @@ TEST_F(LightEnvironment, SamplingASmallBrightSpotTakesTheNoiseAway) {
   const std::vector<Images> sampled = trace_with(scene, R"("paths": 4)", 12);
   const std::vector<Images> found = trace_with(scene, R"("paths": 4, "environment_sampling": "off")", 12);
   double with = 0, without = 0;
-  for (const Estimate& block : block_estimates(sampled, 1, 4))
+  for (const SampleMean& block : block_estimates(sampled, 1, 4))
     if (block.count() > 0 && std::isfinite(block.variance())) with += block.variance();
-  for (const Estimate& block : block_estimates(found, 1, 4))
+  for (const SampleMean& block : block_estimates(found, 1, 4))
     if (block.count() > 0 && std::isfinite(block.variance())) without += block.variance();
   EXPECT_GT(with, 0);
   EXPECT_GT(without / with, 30);

@@ -54,8 +54,8 @@ scene::Scene stripes(const std::vector<scene::Material>& materials, const glm::v
 }
 
 /// Pixels of stripe k of `count`, but for those at its borders.
-Estimate stripe(const std::vector<Images>& frames, uint32_t k, uint32_t count) {
-  Estimate estimate;
+SampleMean stripe(const std::vector<Images>& frames, uint32_t k, uint32_t count) {
+  SampleMean estimate;
   for (const Images& images : frames) add_pixels(estimate, images, 1, k * 32 / count + 1, (k + 1) * 32 / count - 1);
   return estimate;
 }
@@ -80,7 +80,7 @@ TEST_F(LightFurnace, WhiteMetalAtNormalViewHasTheAlbedoOfItsLobe) {
     for (uint32_t k = 0; k < 4; ++k) {
       ASSERT_NEAR(frames.front().at("material").at(k * 8 + 4, 16, 0, 0), alphas[k], 1e-3 * alphas[k]);
       if (c.albedo[k] == 0) continue;
-      const Estimate estimate = stripe(frames, k, 4);
+      const SampleMean estimate = stripe(frames, k, 4);
       EXPECT_LT(estimate.error(), 3e-3);
       EXPECT_NEAR(estimate.mean(), c.albedo[k], 3.5 * estimate.error() + 1e-4) << c.ward << " " << alphas[k];
     }
@@ -101,7 +101,7 @@ TEST_F(LightFurnace, NothingReflectsMoreThanArrives) {
   for (const glm::vec3 eye : {glm::vec3(0, 3, 0), glm::vec3(0, 0.1f, 3)}) {
     const std::vector<Images> frames = trace_frames(stripes(materials, eye), {.params = R"("paths": 64)"});
     for (uint32_t k = 0; k < 8; ++k) {
-      const Estimate estimate = stripe(frames, k, 8);
+      const SampleMean estimate = stripe(frames, k, 8);
       ASSERT_GT(estimate.count(), 3) << eye.y;
       // The modulation colour is the reflectance of the whole material under the same light, at most 1.
       EXPECT_LE(estimate.mean(), 1 + 1e-3 + 3 * estimate.error()) << k << " " << eye.y;

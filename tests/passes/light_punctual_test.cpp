@@ -87,7 +87,7 @@ TEST_F(LightPunctual, LightsAddUp) {
       const glm::dvec3 p = surface_position(frames.front(), x, y);
       exact += (unshadowed(lamps[0], p, 1) + unshadowed(lamps[1], p, 1) + 2 * std::sqrt(0.5) / kPi) / (32 * 32);
     }
-  const Estimate estimate = frame_estimate(frames, 1);
+  const SampleMean estimate = frame_estimate(frames, 1);
   EXPECT_NEAR(estimate.mean(), exact, 3.5 * estimate.error());
   EXPECT_LT(estimate.error(), 0.01 * exact);
 }

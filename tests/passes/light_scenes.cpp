@@ -13,10 +13,10 @@ std::vector<Images> trace_frames(const scene::Scene& scene, const TraceSettings&
   return run_graph(text, scene, options);
 }
 
-std::vector<Estimate> block_estimates(const std::vector<Images>& frames, uint32_t channel, uint32_t block) {
+std::vector<SampleMean> block_estimates(const std::vector<Images>& frames, uint32_t channel, uint32_t block) {
   const Extent3 extent = frames.front().at("radiance").desc.extent;
   const uint32_t across = extent.width / block, down = extent.height / block;
-  std::vector<Estimate> blocks(size_t{across} * down);
+  std::vector<SampleMean> blocks(size_t{across} * down);
   for (const Images& images : frames)
     for (uint32_t y = 0; y < down; ++y)
       for (uint32_t x = 0; x < across; ++x)
@@ -25,15 +25,15 @@ std::vector<Estimate> block_estimates(const std::vector<Images>& frames, uint32_
   return blocks;
 }
 
-Estimate frame_estimate(const std::vector<Images>& frames, uint32_t channel) {
+SampleMean frame_estimate(const std::vector<Images>& frames, uint32_t channel) {
   const Extent3 extent = frames.front().at("radiance").desc.extent;
-  Estimate estimate;
+  SampleMean estimate;
   for (const Images& images : frames)
     estimate.add(mean_of(images.at("radiance"), channel, 0, 0, extent.width, extent.height));
   return estimate;
 }
 
-void add_pixels(Estimate& estimate, const Images& images, uint32_t channel, uint32_t x0, uint32_t x1) {
+void add_pixels(SampleMean& estimate, const Images& images, uint32_t channel, uint32_t x0, uint32_t x1) {
   const image::HostImage& radiance = images.at("radiance");
   for (uint32_t y = 0; y < radiance.desc.extent.height; ++y)
     for (uint32_t x = x0; x < x1; ++x)

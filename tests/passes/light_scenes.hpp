@@ -13,7 +13,7 @@
 namespace lightloom::test {
 
 /// Mean of independent numbers, and its standard error.
-class Estimate {
+class SampleMean {
  public:
   void add(double value) {
     ++count_;
@@ -44,13 +44,13 @@ struct TraceSettings {
 std::vector<Images> trace_frames(const scene::Scene& scene, const TraceSettings& settings);
 
 /// Means of a channel of the radiance over blocks of `block` x `block` pixels in each frame, row by row of blocks.
-std::vector<Estimate> block_estimates(const std::vector<Images>& frames, uint32_t channel, uint32_t block);
+std::vector<SampleMean> block_estimates(const std::vector<Images>& frames, uint32_t channel, uint32_t block);
 
 /// Mean of a channel over all lit pixels, one number a frame: give enough frames for a standard error.
-Estimate frame_estimate(const std::vector<Images>& frames, uint32_t channel);
+SampleMean frame_estimate(const std::vector<Images>& frames, uint32_t channel);
 
 /// Adds every lit pixel of [x0, x1) x [0, height): for parts of an image whose pixels all have the same expectation.
-void add_pixels(Estimate& estimate, const Images& images, uint32_t channel, uint32_t x0, uint32_t x1);
+void add_pixels(SampleMean& estimate, const Images& images, uint32_t channel, uint32_t x0, uint32_t x1);
 
 /// Orthographic camera at `eye` looking at `target`; the image is 2 * half_height high [m].
 scene::Camera orthographic(const glm::vec3& eye, const glm::vec3& target, float half_height,

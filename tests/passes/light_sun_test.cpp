@@ -34,8 +34,8 @@ scene::Scene half_covered(const glm::vec3& towards_sun, float angular_radius) {
 }
 
 /// Part of the light that arrives on the floor, averaged over all pixels in bins of x from -1.5 to 1.5 m.
-std::vector<Estimate> profile(const std::vector<Images>& frames, double full, size_t bins) {
-  std::vector<Estimate> result(bins);
+std::vector<SampleMean> profile(const std::vector<Images>& frames, double full, size_t bins) {
+  std::vector<SampleMean> result(bins);
   for (const Images& images : frames)
     for (uint32_t y = 0; y < kSize; ++y)
       for (uint32_t x = 0; x < kSize; ++x) {
@@ -81,7 +81,7 @@ TEST_F(LightSun, PenumbraIsAsWideAsTheDisc) {
   const std::vector<Images> frames = trace_frames(half_covered({0, 1, 0}, static_cast<float>(kRadius)),
                                                   {R"("paths": 16, "bounces": 0)", kSize, kResolution, 4});
   constexpr size_t kBins = 48;  // one voxel wide
-  const std::vector<Estimate> light = profile(frames, 1, kBins);
+  const std::vector<SampleMean> light = profile(frames, 1, kBins);
   const double half_width = kHeight * std::tan(kRadius);
   double area = 0, exact_area = 0, spread = 0, exact_spread = 0;
   for (size_t bin = 0; bin < kBins; ++bin) {
@@ -111,7 +111,7 @@ TEST_F(LightSun, DiscGivesTheIrradianceOfThePoint) {
     scene.features.sun = true;
     const std::vector<Images> frames = trace_frames(scene, {.params = R"("paths": 16, "bounces": 0)", .frames = 2});
     for (uint32_t channel = 0; channel < 3; ++channel) {
-      Estimate estimate;
+      SampleMean estimate;
       for (const Images& images : frames) add_pixels(estimate, images, channel, 0, 32);
       const double exact = static_cast<double>(scene.sun->irradiance[static_cast<int>(channel)] * towards_sun.y) / kPi;
       EXPECT_NEAR(estimate.mean(), exact, 4 * estimate.error() + 1e-5 * exact) << radius;

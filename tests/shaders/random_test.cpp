@@ -75,5 +75,54 @@ TEST_F(Random, EveryWordOfTheKeyMatters) {
     EXPECT_LT(std::abs(correlation(base, draw(key, rest, kCount))), limit) << key << " " << rest;
 }
 
+// Along rows, columns, diagonals, frames and paths, near and far: a pattern would be seen as one in the picture, and
+// would not average out over frames.
+TEST_F(Random, NeighboursInSpaceAndTimeAreNotCorrelated) {
+  struct Lag {
+    const char* what;
+    std::string key;
+  };
+  std::vector<Lag> lags;
+  for (const char* step : {"1u", "2u", "7u", "8u", "64u"}) {
+    const std::string s = step;
+    lags.push_back({"row", "RandomKey(uvec2((index & 255u) + " + s + ", index >> 8u), 3u, 5u, 0u)"});
+    lags.push_back({"column", "RandomKey(uvec2(index & 255u, (index >> 8u) + " + s + "), 3u, 5u, 0u)"});
+    lags.push_back({"diagonal", "RandomKey(uvec2((index & 255u) + " + s + ", (index >> 8u) + " + s + "), 3u, 5u, 0u)"});
+    lags.push_back({"frame", "RandomKey(uvec2(index & 255u, index >> 8u), 3u + " + s + ", 5u, 0u)"});
+    lags.push_back({"path", "RandomKey(uvec2(index & 255u, index >> 8u), 3u, 5u, " + s + ")"});
+  }
+  const std::vector<float> base = draw(kPixels, "0u, 1u", kCount);
+  int beyond_two = 0;
+  for (const Lag& lag : lags) {
+    const double z = correlation(base, draw(lag.key, "0u, 1u", kCount)) * std::sqrt(4.0 * kCount);
+    // Of 25 lags: none beyond 3.7 (one chance in 200), and about one beyond 2.
+    EXPECT_LT(std::abs(z), 3.7) << lag.what << " " << lag.key;
+    beyond_two += std::abs(z) > 2 ? 1 : 0;
+  }
+  EXPECT_LE(beyond_two, 5);
+}
+
+// The numbers that one pixel gets frame after frame, and path after path, fill the square: else its mean would be
+// wrong.
+TEST_F(Random, FirstPointsOfOnePixelFillTheSquare) {
+  const std::vector<std::string> sequences = {"RandomKey(uvec2(321u, 123u), index, 5u, 0u)",
+                                              "RandomKey(uvec2(321u, 123u), 0u, 5u, index)",
+                                              "RandomKey(uvec2(0u, 0u), index, 0u, 0u)"};
+  for (const std::string& key : sequences) {
+    const std::vector<float> values = draw(key, "0u, 1u", 4096);
+    for (int first = 0; first < 3; ++first) {
+      std::vector<double> observed(256), expected(256, 16);
+      for (size_t k = 0; k < values.size(); k += 4)
+        ++observed[16 * static_cast<size_t>(16 * values[k + first]) + static_cast<size_t>(16 * values[k + first + 1])];
+      EXPECT_GT(chi_square(observed, expected).p_value, 1e-4) << key << " " << first;
+    }
+    // One pair after another in time.
+    std::vector<double> observed(256), expected(256, 4095.0 / 256);
+    for (size_t k = 0; k + 4 < values.size(); k += 4)
+      ++observed[16 * static_cast<size_t>(16 * values[k]) + static_cast<size_t>(16 * values[k + 4])];
+    EXPECT_GT(chi_square(observed, expected).p_value, 1e-4) << key << " in time";
+  }
+}
+
 }  // namespace
 }  // namespace lightloom::test
