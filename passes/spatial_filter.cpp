@@ -27,6 +27,15 @@ std::vector<Param> shape_params() {
        "",
        "`anisotropic`: the roughness along each axis; `isotropic`, for comparison: their geometric mean along both, "
        "which covers the same area"},
+      {"roughness",
+       ParamType::choice,
+       std::string("alpha"),
+       {},
+       {},
+       {"alpha", "perceptual"},
+       "",
+       "what the roughness is measured by: Ward's alpha, or its square root, which is longer for glossy surfaces; with "
+       "the default reach it is still a fraction of the width of their reflections of what is not close by"},
       {"floor_fraction",
        ParamType::real,
        0.0035,
@@ -66,6 +75,15 @@ std::vector<Param> guide_params() {
        {},
        "",
        "relative standard error of the radiance from which on the filter has its full length"},
+      {"difference_limit",
+       ParamType::real,
+       3.0,
+       0,
+       1e6,
+       {},
+       "standard errors",
+       "with `variance` connected, neighbours whose luminance differs by more than this many standard errors of the "
+       "difference are left out: shadow edges stay; 0 turns it off"},
   };
 }
 

@@ -19,6 +19,7 @@ layout(push_constant) uniform Params {
   float normal_threshold;
   float variance_guide;
   float full_width_error;
+  float difference_limit;
 };
 
 // Within the ellipse around the centre on its surface? Multiplied out, for half axes may be 0.
@@ -36,8 +37,8 @@ void add_within_cutoff(Centre centre, ivec2 pixel, inout vec4 sum) {
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, textureSize(radiance, 0)))) return;
-  FilterShape shape =
-      FilterShape(floor_fraction, distance_fraction, normal_threshold, variance_guide, full_width_error);
+  FilterShape shape = FilterShape(floor_fraction, distance_fraction, normal_threshold, variance_guide,
+                                  full_width_error, difference_limit);
   Centre centre;
   if (!load_centre(pixel, shape, centre)) {
     imageStore(out_radiance, pixel, centre.radiance);

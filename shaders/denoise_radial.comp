@@ -17,6 +17,7 @@ layout(push_constant) uniform Params {
   float normal_threshold;
   float variance_guide;
   float full_width_error;
+  float difference_limit;
 };
 
 // Marches from the centre along a direction of the world as it appears on the screen, one tap for each pixel that is
@@ -41,8 +42,8 @@ void march_side(Centre centre, vec3 direction, float reach_along, inout vec4 sum
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, textureSize(radiance, 0)))) return;
-  FilterShape shape =
-      FilterShape(floor_fraction, distance_fraction, normal_threshold, variance_guide, full_width_error);
+  FilterShape shape = FilterShape(floor_fraction, distance_fraction, normal_threshold, variance_guide,
+                                  full_width_error, difference_limit);
   Centre centre;
   if (!load_centre(pixel, shape, centre)) {
     imageStore(out_radiance, pixel, centre.radiance);

@@ -10,7 +10,8 @@
 
 layout(constant_id = 0) const uint lobe = 0u;     // kLobeBoth, ...
 layout(constant_id = 1) const uint kernel = 0u;   // 0: anisotropic, 1: isotropic
-layout(constant_id = 2) const bool variance_bound = false;
+layout(constant_id = 2) const uint roughness = 0u;   // 0: alpha, 1: perceptual
+layout(constant_id = 3) const bool variance_bound = false;
 
 uniform texture2D radiance;
 uniform texture2D surface_position;
@@ -28,6 +29,7 @@ struct FilterShape {
   float normal_threshold;
   float variance_guide;
   float full_width_error;
+  float difference_limit;
 };
 
 // The pixel that is being filtered.
@@ -41,7 +43,8 @@ struct Centre {
   uint object;
   vec2 reach;       // half lengths along tangent and bitangent [m]
   float kept;       // part of its length that a filter keeps, 0 to 1
-  float normal_threshold;
+  float variance;   // of the luminance
+  FilterShape shape;
 };
 
 float scene_diagonal() { return length(frame.scene_max.xyz - frame.scene_min.xyz); }
@@ -52,8 +55,9 @@ vec2 kernel_roughness(Centre centre) {
   vec3 to_viewer = normalize(frame.eye[0].xyz - centre.position.xyz * frame.eye[0].w);
   Bsdf bsdf = Bsdf(albedo.rgb, albedo.w, material.z, material.w, material.xy);
   float share = lobe == kLobeBoth ? specular_share(bsdf, dot(centre.normal, to_viewer)) : 1.0;
-  vec2 roughness = lobe_roughness(lobe, material.xy, share);
-  return kernel == 0u ? roughness : vec2(sqrt(roughness.x * roughness.y));
+  vec2 measure = lobe_roughness(lobe, material.xy, share);
+  if (roughness == 1u) measure = sqrt(measure);
+  return kernel == 0u ? measure : vec2(sqrt(measure.x * measure.y));
 }
 
 // Part of the length to keep, from the relative standard error of a pixel's radiance. Mean and variance are themselves
@@ -89,20 +93,31 @@ bool load_centre(ivec2 pixel, FilterShape shape, out Centre centre) {
   float length = filter_reach(shape.floor_fraction * scene_diagonal(), shape.distance_fraction, centre.position.w);
   centre.reach = length * kernel_roughness(centre);
   centre.kept = kept_length(centre, shape);
-  centre.normal_threshold = shape.normal_threshold;
+  centre.variance = variance_bound ? texelFetch(variance, pixel, 0).x : 0.0;
+  centre.shape = shape;
   return true;
 }
 
-// Adds a neighbour if it shows the same object, faces alike and lies within the radial cut-off.
+// May chance explain the difference between the two? Both variances count, so that what is improbably bright is spread
+// as well as blurred: pixels that share a test share their light, and the mean stays.
+bool may_be_equal(Centre centre, ivec2 pixel, vec3 value) {
+  if (!variance_bound || centre.shape.difference_limit <= 0.0) return true;
+  float difference = luminance(value) - luminance(centre.radiance.rgb);
+  float limit = centre.shape.difference_limit;
+  return !(difference * difference > limit * limit * (centre.variance + texelFetch(variance, pixel, 0).x));
+}
+
+// Adds a neighbour if it shows the same object, faces alike, lies within the radial cut-off and, as far as the variance
+// tells, may have the same light.
 void add_neighbour(Centre centre, ivec2 pixel, inout vec4 sum) {
   if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(radiance, 0)))) return;
   if (texelFetch(surface_id, pixel, 0).x != centre.object) return;
   vec3 offset = texelFetch(surface_position, pixel, 0).xyz - centre.position.xyz;
   float cutoff = max(centre.reach.x, centre.reach.y);
   if (!(dot(offset, offset) <= cutoff * cutoff)) return;
-  if (!(dot(texelFetch(surface_normal, pixel, 0).xyz, centre.normal) >= centre.normal_threshold)) return;
+  if (!(dot(texelFetch(surface_normal, pixel, 0).xyz, centre.normal) >= centre.shape.normal_threshold)) return;
   vec4 value = texelFetch(radiance, pixel, 0);
-  if (value.a <= 0.0 || !is_finite(value.rgb)) return;
+  if (value.a <= 0.0 || !is_finite(value.rgb) || !may_be_equal(centre, pixel, value.rgb)) return;
   sum += vec4(value.rgb, 1.0);
 }
 

@@ -21,7 +21,7 @@ class DenoiseGuide : public DeviceTest {
   const std::string reach_ = fixed_reach(scene_, kReach * 6 * std::tan(0.4) / 65);
 
   [[nodiscard]] FilterStage radial(const std::string& more = "") const {
-    return {"denoise_radial", R"("axis": "tangent", "taps": 64, )" + reach_ + more};
+    return {"denoise_radial", R"("axis": "tangent", "taps": 64, "difference_limit": 0, )" + reach_ + more};
   }
 
   /// A bump on an image that is 1 else, with the relative standard error `error` everywhere ("constant" is 0.25 in
@@ -40,7 +40,11 @@ class DenoiseGuide : public DeviceTest {
     return count;
   }
 
-  static void expect_same(const image::HostImage& a, const image::HostImage& b) { EXPECT_EQ(a.texels, b.texels); }
+  static void expect_same(const image::HostImage& a, const image::HostImage& b) {
+    for (uint32_t y = 0; y < 65; ++y)
+      for (uint32_t x = 0; x < 65; ++x)
+        for (uint32_t c = 0; c < 4; ++c) ASSERT_EQ(a.at(x, y, 0, c), b.at(x, y, 0, c)) << x << " " << y << " " << c;
+  }
 };
 
 TEST_F(DenoiseGuide, LengthFollowsTheRelativeStandardError) {
@@ -55,11 +59,11 @@ TEST_F(DenoiseGuide, LengthFollowsTheRelativeStandardError) {
 }
 
 TEST_F(DenoiseGuide, BoxBlurShrinksToOnePixelAtMost) {
-  const FilterStage box = {"box_blur", R"("axis": "x", "radius": 8, )" + reach_};
+  const FilterStage box = {"box_blur", R"("axis": "x", "radius": 8, "difference_limit": 0, )" + reach_};
   EXPECT_EQ(reach(bump(box, 0.0)), 1);
   EXPECT_EQ(reach(bump(box, 0.125)), 6);  // 8 * 0.75
   EXPECT_EQ(reach(bump(box, 1.0)), 8);
-  EXPECT_EQ(reach(bump({"box_blur", R"("axis": "x", "radius": 0, )" + reach_}, 1.0)), 0);
+  EXPECT_EQ(reach(bump({"box_blur", R"("axis": "x", "radius": 0, "difference_limit": 0, )" + reach_}, 1.0)), 0);
 }
 
 TEST_F(DenoiseGuide, WithoutKnowledgeTheFilterIsTheUnguidedOne) {
@@ -90,6 +94,39 @@ TEST_F(DenoiseGuide, ConstantImagesStayAndImpulsesKeepTheirSum) {
       }
     EXPECT_NEAR(sum, 1, 5e-3) << error;
   }
+}
+
+TEST_F(DenoiseGuide, AStepStaysWhereChanceCannotExplainIt) {
+  // From 1 to 2: with the variance v of each, that is 1 / sqrt(2 v) standard errors.
+  auto step = [&](double standard_errors, const std::string& limit) {
+    const FilterStage stage = {"denoise_radial",
+                               R"("axis": "tangent", "taps": 64, "variance_guide": 0, )" + reach_ + limit};
+    return run_filters(scene_,
+                       {.pattern = "step",
+                        .stages = {stage, {"box_blur", R"("axis": "x", "variance_guide": 0, )" + reach_ + limit}},
+                        .variance_pattern = "constant",
+                        .variance_scale = 4 * 0.5 / (standard_errors * standard_errors)});
+  };
+  const Images sharp = step(3.1, "");
+  const Images blurred = step(2.9, "");
+  const Images unlimited = step(3.1, R"(, "difference_limit": 0)");
+  expect_same(sharp.at("radiance"), sharp.at("pattern"));
+  expect_same(blurred.at("radiance"), unlimited.at("radiance"));
+  EXPECT_NEAR(blurred.at("radiance").at(32, 32, 0, 0), 1.5, 0.05);
+  expect_same(step(1.9, R"(, "difference_limit": 2)").at("radiance"), unlimited.at("radiance"));
+  expect_same(step(2.1, R"(, "difference_limit": 2)").at("radiance"), sharp.at("pattern"));
+}
+
+TEST_F(DenoiseGuide, WhatIsImprobablyBrightKeepsItsSum) {
+  // One pixel in which chance found much light, and so much variance: spread, neither lost nor left alone.
+  const Images images = run_filters(
+      scene_, {.pattern = "impulse",
+               .stages = {{"denoise_radial", R"("axis": "tangent", "taps": 64, "variance_guide": 0, )" + reach_}},
+               .variance_pattern = "impulse"});
+  double sum = 0;
+  for (uint32_t x = 0; x < 65; ++x) sum += images.at("radiance").at(x, 32, 0, 0);
+  EXPECT_NEAR(sum, 1, 1e-5);
+  EXPECT_NEAR(images.at("radiance").at(32, 32, 0, 0), 1.0 / 25, 1e-6);
 }
 
 TEST_F(DenoiseGuide, ASpoiltVarianceCountsAsNone) {

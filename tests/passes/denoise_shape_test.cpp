@@ -248,6 +248,7 @@ TEST_F(DenoiseShape, LobeAndKernelDecideTheReachAlongEachAxis) {
       {R"("lobe": "diffuse")", 12, 12},
       {R"("lobe": "specular", "kernel": "isotropic")", 6, 6},  // sqrt(1 * 0.25)
       {R"("lobe": "diffuse", "kernel": "isotropic")", 12, 12},
+      {R"("lobe": "specular", "roughness": "perceptual")", 12, 6},
   };
   for (const Row& row : rows) {
     const Images images = run_filters(scene, {.stages = both_radial(row.params + ", " + reach)});

@@ -17,7 +17,7 @@ PassType make_pattern() {
                   std::string("constant"),
                   {},
                   {},
-                  {"constant", "noise", "impulse", "normal", "object", "ramp", "frame", "spoilt", "bump"},
+                  {"constant", "noise", "impulse", "normal", "object", "ramp", "frame", "spoilt", "bump", "step"},
                   "",
                   "which"},
                  {"scale", ParamType::real, 1.0, {}, {}, {}, "", "factor on it"}};

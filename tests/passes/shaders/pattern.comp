@@ -14,7 +14,7 @@ uniform utexture2D surface_id;
 uniform writeonly image2D out_radiance;
 
 layout(push_constant) uniform Params {
-  uint pattern;   // 0 constant, 1 noise, 2 impulse, 3 normal, 4 object, 5 ramp, 6 frame, 7 spoilt, 8 bump
+  uint pattern;   // 0 constant, 1 noise, 2 impulse, 3 normal, 4 object, 5 ramp, 6 frame, 7 spoilt, 8 bump, 9 step
   float scale;
 };
 
@@ -27,6 +27,7 @@ vec3 value(ivec2 pixel, ivec2 size) {
   if (pattern == 6u) return vec3(float(frame.ids.x & 1u));
   if (pattern == 7u) return pixel == size / 2 ? vec3(uintBitsToFloat(0x7FC00000u)) : vec3(1.0);
   if (pattern == 8u) return vec3(pixel == size / 2 ? 1.0078125 : 1.0);
+  if (pattern == 9u) return vec3(pixel.x < size.x / 2 ? 1.0 : 2.0);
   return vec3(0.25, 0.5, 2.0);
 }
 

@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "framework/base/file.hpp"
+#include "passes/registry.hpp"
+#include "tests/graph/hazard_checker.hpp"
+#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/source_dir.hpp"
+
+// graphs/lightloom.json, linked against scenes that have or lack what its nodes ask for.
+namespace lightloom {
+namespace {
+
+const PassRegistry& real_passes() {
+  static const PassRegistry types = [] {
+    PassRegistry result;
+    passes::register_builtin_passes(result);
+    return result;
+  }();
+  return types;
+}
+
+Graph lightloom_graph(const LinkOptions& options = {}, bool specular = true, bool dynamic = true) {
+  LinkEnvironment scene = toy::environment(dynamic);
+  scene.scene_features.emplace_back("specular", specular);
+  scene.scene_features.emplace_back("emissive", dynamic);
+  return toy::graph_of(read_text_file(source_dir() / "graphs" / "lightloom.json"), options, real_passes(), scene);
+}
+
+bool runs(const Graph& graph, const std::string& name) {
+  const auto order = toy::order(compile(graph));
+  return std::find(order.begin(), order.end(), name) != order.end();
+}
+
+TEST(LightloomGraph, LobesAreFilteredApartByTheSamePassTypes) {
+  const Graph graph = lightloom_graph();
+  EXPECT_TRUE(graph.culled.empty());
+  for (const std::string lobe : {"diffuse", "specular"}) {
+    EXPECT_EQ(toy::source(graph, "temporal_" + lobe, "radiance"), "trace." + lobe);
+    for (const std::string stage : {"tangent", "bitangent", "box_x", "box_y"}) {
+      const std::string name = "denoise_" + lobe + "_" + stage;
+      EXPECT_EQ(toy::pass(graph, name).params.choice("lobe"), lobe);
+      EXPECT_EQ(toy::source(graph, name, "variance"), "temporal_" + lobe + ".variance");
+    }
+  }
+  EXPECT_EQ(toy::source(graph, "upsample", "radiance"), "denoise_diffuse_box_y.radiance");
+  EXPECT_EQ(toy::source(graph, "upsample", "specular"), "denoise_specular_box_y.radiance");
+  EXPECT_EQ(toy::source(graph, "modulate", "specular"), "upsample.specular");
+}
+
+TEST(LightloomGraph, WithoutSpecularReflectionItsChainFallsAway) {
+  const Graph graph = lightloom_graph({}, false, false);
+  EXPECT_FALSE(runs(graph, "temporal_specular"));
+  for (const char* stage : {"tangent", "bitangent", "box_x", "box_y"}) {
+    EXPECT_FALSE(runs(graph, std::string("denoise_specular_") + stage));
+    EXPECT_TRUE(runs(graph, std::string("denoise_diffuse_") + stage));
+  }
+  EXPECT_FALSE(runs(graph, "merge"));
+  EXPECT_TRUE(runs(graph, "modulate"));
+}
+
+TEST(LightloomGraph, DisabledFiltersLeaveTheirInput) {
+  LinkOptions options;
+  options.disables = {"denoise_*"};
+  const Graph graph = lightloom_graph(options);
+  EXPECT_EQ(toy::source(graph, "upsample", "radiance"), "temporal_diffuse.radiance");
+  EXPECT_EQ(toy::source(graph, "upsample", "specular"), "temporal_specular.radiance");
+  options.disables = {"denoise_*", "temporal_*"};
+  EXPECT_EQ(toy::source(lightloom_graph(options), "upsample", "specular"), "trace.specular");
+}
+
+TEST(LightloomGraph, EveryVariantAndEveryStageAloneLinksWithoutHazard) {
+  const std::vector<std::string> disabled = {"denoise_*",       "denoise_*_tangent", "denoise_diffuse_*",
+                                             "denoise_*_box_*", "temporal_*",        "temporal_specular",
+                                             "modulate",        "trace_surface",     "denoise_*_box_y"};
+  for (const bool specular : {false, true}) {
+    for (const std::string& glob : disabled) {
+      LinkOptions options;
+      options.disables = {glob};
+      options.captures = {"*"};
+      EXPECT_EQ(find_hazards(compile(lightloom_graph(options, specular)), 1), std::vector<std::string>{}) << glob;
+    }
+    for (const char* variant : {"no_denoise", "no_temporal", "raw", "paths15", "isotropic"}) {
+      LinkOptions options;
+      options.variants = {variant};
+      EXPECT_EQ(find_hazards(compile(lightloom_graph(options, specular)), 1), std::vector<std::string>{}) << variant;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lightloom
