@@ -76,11 +76,25 @@ std::vector<double> slice_angles(double theta) {
   return angles;
 }
 
-std::vector<LobeValues> slice_values(Plot& plot, WardForm form, const std::vector<double>& angles) {
+/// f cos(theta of wo): the share of the light that leaves to wo, per solid angle; bounded at the horizon, as f is not.
+std::vector<double> scattered(Plot& plot, WardForm form, const std::vector<DirectionPair>& pairs) {
+  std::vector<double> values;
+  for (const LobeValues& v : plot.evaluator.evaluate(with_form(plot.lobe, form), pairs))
+    values.push_back(v.f * std::cos(pairs[values.size()].outgoing.theta * kRadiansPerDegree));
+  return values;
+}
+
+/// For a scale that is never 0.
+double maximum_of(const std::vector<double>& values) {
+  const double maximum = *std::max_element(values.begin(), values.end());
+  return maximum > 0 ? maximum : 1;
+}
+
+std::vector<double> slice_values(Plot& plot, WardForm form, const std::vector<double>& angles) {
   std::vector<DirectionPair> pairs;
   for (const double angle : angles)
     pairs.push_back({plot.pair.incoming, {std::abs(angle), plot.pair.incoming.phi + (angle < 0 ? 0 : 180)}});
-  return plot.evaluator.evaluate(with_form(plot.lobe, form), pairs);
+  return scattered(plot, form, pairs);
 }
 
 Point on_circle(const Point& centre, double radius, double angle) {
@@ -113,18 +127,16 @@ std::array<Form, 3> chosen_first(WardForm chosen) {
 
 void draw_slice(Plot& plot, const Point& centre, double radius) {
   const std::vector<double> angles = slice_angles(plot.pair.incoming.theta);
-  double maximum = 0;
-  for (const LobeValues& v : slice_values(plot, plot.lobe.form, angles)) maximum = std::max(maximum, double{v.f});
-  if (maximum <= 0) maximum = 1;
+  const double maximum = maximum_of(slice_values(plot, plot.lobe.form, angles));
   Canvas& canvas = plot.canvas;
-  canvas.text({centre.x, centre.y - radius - 60}, "f in the plane of incidence (1/sr)", kInk, Align::centre);
+  canvas.text({centre.x, centre.y - radius - 60}, "f cos in the plane of incidence (1/sr)", kInk, Align::centre);
   draw_polar_axes(canvas, centre, radius, maximum);
   const Box clip{centre.x - radius * 1.15, centre.y - radius * 1.15, centre.x + radius * 1.15, centre.y + 1};
   for (const Form& form : chosen_first(plot.lobe.form)) {
-    const std::vector<LobeValues> values = slice_values(plot, form.form, angles);
+    const std::vector<double> values = slice_values(plot, form.form, angles);
     std::vector<Point> curve;
     for (size_t k = 0; k < angles.size(); ++k)
-      curve.push_back(on_circle(centre, radius * values[k].f / maximum, angles[k]));
+      curve.push_back(on_circle(centre, radius * values[k] / maximum, angles[k]));
     canvas.line(curve, thickness_of(plot, form.form), form.color, clip);
   }
   const std::array ray = {on_circle(centre, radius * 1.03, -plot.pair.incoming.theta), centre};
@@ -154,8 +166,8 @@ Point map_point(const Point& centre, double radius, const PolarDirection& direct
 
 constexpr double kDecades = 4;
 
-double decade_share(double f, double maximum) {
-  return f > 0 ? 1 + std::log10(f / maximum) / kDecades : 0;
+double decade_share(double value, double maximum) {
+  return value > 0 ? 1 + std::log10(value / maximum) / kDecades : 0;
 }
 
 void draw_color_bar(Canvas& canvas, const Box& bar, double maximum) {
@@ -188,18 +200,16 @@ void draw_map(Plot& plot, const Point& centre, double radius) {
     }
   const PolarDirection mirrored{plot.pair.incoming.theta, plot.pair.incoming.phi + 180};
   pairs.push_back({plot.pair.incoming, mirrored});  // a needle may fall between pixels
-  const std::vector<LobeValues> values = plot.evaluator.evaluate(plot.lobe, pairs);
-  double maximum = 0;
-  for (const LobeValues& v : values) maximum = std::max(maximum, double{v.f});
-  if (maximum <= 0) maximum = 1;
+  const std::vector<double> values = scattered(plot, plot.lobe.form, pairs);
+  const double maximum = maximum_of(values);
   Canvas& canvas = plot.canvas;
   for (size_t k = 0; k < pixels.size(); ++k)
     canvas.set(static_cast<int64_t>(centre.x) + pixels[k].x, static_cast<int64_t>(centre.y) + pixels[k].y,
-               heat(decade_share(values[k].f, maximum)));
+               heat(decade_share(values[k], maximum)));
   const Point needle = map_point(centre, radius, mirrored);
   canvas.set(static_cast<int64_t>(needle.x), static_cast<int64_t>(needle.y),
-             heat(decade_share(values.back().f, maximum)));
-  canvas.text({centre.x, centre.y - radius - 50}, "f over wo (1/sr)", kInk, Align::centre);
+             heat(decade_share(values.back(), maximum)));
+  canvas.text({centre.x, centre.y - radius - 50}, "f cos over wo (1/sr)", kInk, Align::centre);
   for (const double theta : {30.0, 60.0, 90.0}) {
     const double r = map_point({0, 0}, radius, {theta, 0}).x;
     canvas.circle(centre, r, theta < 90 ? 0.5 : 1.5, theta < 90 ? kGrid : kAxis);
