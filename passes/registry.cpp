@@ -3,6 +3,7 @@
 #include "passes/box_blur.hpp"
 #include "passes/denoise_radial.hpp"
 #include "passes/distance_transform.hpp"
+#include "passes/emissive_faces.hpp"
 #include "passes/gather.hpp"
 #include "passes/modulate.hpp"
 #include "passes/resample_surface.hpp"
@@ -21,6 +22,7 @@ void register_builtin_passes(PassRegistry& registry) {
   registry.add(make_voxelize());
   registry.add(make_voxel_merge());
   registry.add(make_distance_transform());
+  registry.add(make_emissive_faces());
   registry.add(make_gather());
   registry.add(make_resample_surface());
   registry.add(make_voxel_path_trace());

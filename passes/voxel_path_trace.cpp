@@ -1,5 +1,6 @@
 #include "passes/voxel_path_trace.hpp"
 
+#include "framework/base/error.hpp"
 #include "passes/port_rows.hpp"
 
 namespace lightloom::passes {
@@ -13,12 +14,20 @@ Port light_output(std::string name, const std::string& what) {
   return port;
 }
 
+Port optional_image(std::string name, Format format, std::string doc) {
+  Port port = image_input(std::move(name), format, std::move(doc));
+  port.optional = true;
+  return port;
+}
+
 std::vector<Port> ports() {
   return {surface_input("surface", "first hits; one path tree starts at each pixel"),
           voxels_input("voxels", "what the paths meet after the first hit"),
           same_size_as("voxels", volume_input("distance",
                                               "chessboard distance to the nearest occupied voxel [voxels / 255], "
                                               "capped")),
+          optional_image("faces", Format::rg32_uint, "emissive_faces.faces; what `nee` voxel_faces draws from"),
+          optional_image("power", Format::r32_uint, "emissive_faces.power; what `emitter_area` surface compares with"),
           light_output("radiance",
                        "radiance that the surface reflects to the viewer [W m^-2 sr^-1] divided by the modulation "
                        "colour of both lobes, without the surface's own emission"),
@@ -65,6 +74,15 @@ std::vector<Param> params() {
           "how rays go through the grid: by steps as long as the distance to the nearest occupied voxel (sphere, the "
           "paper's, which steps over corners); to the end of the empty cube around them (cube_exit) or from voxel to "
           "voxel (dda), which both find every voxel that a ray touches"),
+      choice(
+          "nee", "hints", {"hints", "voxel_faces"},
+          "next event estimation towards emissive surfaces: by points on their triangles (hints, the paper's), which "
+          "are a little less than the voxels that scattered rays meet, so that the light depends on who finds it; or "
+          "by the very faces that rays meet, from input `faces`, with the same density on both sides"),
+      choice(
+          "emitter_area", "voxels", {"voxels", "surface"},
+          "radiance of emissive voxels: the material's, so that a lamp narrower than a voxel is too bright; or "
+          "scaled, by input `power`, so that all voxels of an emission have the power of its triangles, at most by 4"),
       choice("strategy", "mis", {"mis", "nee", "bsdf"},
              "what finds light that both next event estimation and scattered rays can find: both, sharing it (mis), or "
              "one of them alone; light without extent is always found by the former, light in mirrors by the latter"),
@@ -80,6 +98,15 @@ std::vector<Param> params() {
   };
 }
 
+void require_input(const PassContext& context, const std::string& param, const std::string& value,
+                   const std::string& port) {
+  if (context.params().choice(param) != value || context.connected(port)) return;
+  throw Error(
+      ExitCode::invalid_input,
+      "voxel_path_trace: param '" + param + "' is '" + value + "', but the input '" + port + "' is not connected",
+      "connect it to an emissive_faces pass: \"" + port + "\": \"emissive_faces." + port + "\"");
+}
+
 }  // namespace
 
 PassType make_voxel_path_trace() {
@@ -93,6 +120,8 @@ PassType make_voxel_path_trace() {
   type.params = params();
   type.reads = FrameState::camera | FrameState::seed | FrameState::lights;
   type.record = [](PassContext& context) {
+    require_input(context, "nee", "voxel_faces", "faces");
+    require_input(context, "emitter_area", "surface", "power");
     context.dispatch({"voxel_path_trace.comp", context.output_extent("radiance"), {}});
   };
   return type;

@@ -101,12 +101,13 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
         decode_voxel(texelFetch(voxels_albedo, hit.voxel, 0), texelFetch(voxels_normal, hit.voxel, 0),
                      texelFetch(voxels_material, hit.voxel, 0));
     vec3 from = vertex.position;
+    vec3 origin = vertex.origin;
     least_alpha = max(least_alpha, min(scatter.roughness, regularization));
-    vertex = voxel_vertex(grid, hit, vertex.origin, direction, surface, least_alpha);
-    vec3 path = vertex.position - from;
-    radiance += throughput * hint_emitter_hit(surface.emission, surface.normal, direction, dot(path, path), scatter);
+    vertex = voxel_vertex(grid, hit, origin, direction, surface, least_alpha);
+    radiance += throughput * emitter_hit(grid, voxels_albedo, hit, surface, from, vertex.position, origin, direction,
+                                         scatter);
     if (bounce > bounces) break;
-    PerLobe direct = direct_light(grid, distance, voxels_material, vertex, key, bounce);
+    PerLobe direct = direct_light(grid, distance, voxels_normal, voxels_material, vertex, key, bounce);
     radiance += throughput * (direct.diffuse + direct.specular);
     if (bounce == bounces && !kRaysFindLight) break;
     scatter = bsdf_sample(vertex.bsdf, vertex.incoming, random4(key, bounce, kDimensionScatter).xyz);
@@ -118,7 +119,7 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
 
 // Light that each lobe of the first hit scatters to the viewer.
 PerLobe trace_path(Grid grid, PathVertex first, RandomKey key) {
-  PerLobe light = direct_light(grid, distance, voxels_material, first, key, 0u);
+  PerLobe light = direct_light(grid, distance, voxels_normal, voxels_material, first, key, 0u);
   if (bounces == 0u && !kRaysFindLight) return light;
   BsdfSample scatter = bsdf_sample(first.bsdf, first.incoming, random4(key, 0u, kDimensionScatter).xyz);
   if (scatter.weight == vec3(0.0)) return light;

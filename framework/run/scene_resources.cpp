@@ -7,6 +7,7 @@
 
 #include "framework/base/error.hpp"
 #include "framework/gpu/transfer.hpp"
+#include "framework/scene/color.hpp"
 #include "framework/scene/environment_sampler.hpp"
 #include "framework/scene/gpu_material.hpp"
 #include "framework/scene/texture_pages.hpp"
@@ -195,10 +196,15 @@ void SceneResources::bind() {
 
 uint32_t SceneResources::fill_light_block(LightBlock& block, const scene::Pose& pose, uint32_t frame) {
   emitters_.update(scene_, pose.dynamic_vertices);
+  float brightest = 0;
+  for (const scene::EmissionEntry& emission : emission_.entries)
+    brightest = std::max(brightest, scene::luminance(emission.radiance));
   for (uint32_t entry = 0; entry < emission_.entries.size(); ++entry) {
     const scene::EmissionEntry& emission = emission_.entries[entry];
-    block.emissions[entry] = {.radiance = glm::vec4(emission.radiance, emitters_.area_density(entry)),
-                              .sides = glm::vec4(emission.two_sided ? 1 : 0, 0, 0, 0)};
+    block.emissions[entry] = {
+        .radiance = glm::vec4(emission.radiance, emitters_.area_density(entry)),
+        .sides = glm::vec4(emission.two_sided ? 1 : 0, emitters_.emitting_area(entry),
+                           brightest > 0 ? scene::luminance(emission.radiance) / brightest : 0, 0)};
   }
   const std::vector<scene::Hint> hints = emitters_.draw_hints(scene_, options_.seed, frame, kHintLimit);
   for (size_t index = 0; index < hints.size(); ++index)

@@ -141,6 +141,7 @@ void EmitterSampler::update(const Scene& scene, std::span<const Vertex> dynamic_
                                               : dynamic_vertices[vertex - scene.static_vertex_count].position;
   };
   cumulative_.clear();
+  areas_.assign(entries_.size(), 0);
   double total = 0;
   for (Emitter& emitter : emitters_) {
     const Triangle& triangle = scene.triangles[emitter.triangle];
@@ -150,6 +151,7 @@ void EmitterSampler::update(const Scene& scene, std::span<const Vertex> dynamic_
     const EmissionEntry& entry = entries_[emitter.entry];
     const double area = glm::length(double_area(emitter.a, emitter.b, emitter.c)) * 0.5 *
                         static_cast<double>(emitter.emitting_fraction);
+    areas_[emitter.entry] += area;
     total += area * static_cast<double>(luminance(entry.radiance)) * (entry.two_sided ? 2 : 1);
     cumulative_.push_back(total);
   }
@@ -160,6 +162,10 @@ float EmitterSampler::area_density(uint32_t entry) const {
   if (entry == 0 || !(total > 0)) return 0;
   const double power = static_cast<double>(luminance(entries_[entry].radiance)) * (entries_[entry].two_sided ? 2 : 1);
   return static_cast<float>(power / total);
+}
+
+float EmitterSampler::emitting_area(uint32_t entry) const {
+  return static_cast<float>(areas_.at(entry));
 }
 
 Hint EmitterSampler::sample(const Scene& scene, const Emitter& emitter, uint32_t random_state) const {

@@ -56,6 +56,9 @@ class EmitterSampler {
   /// Density of the points per area of an emitting surface [m⁻²]; 0 for entry 0 and where nothing emits.
   [[nodiscard]] float area_density(uint32_t entry) const;
 
+  /// Area of the triangles of an entry, one side of it, as far as they emit [m²].
+  [[nodiscard]] float emitting_area(uint32_t entry) const;
+
   /// `count` points, stratified over the emitted power, a function of its arguments and the pose alone. Empty if
   /// nothing emits.
   [[nodiscard]] std::vector<Hint> draw_hints(const Scene& scene, uint32_t seed, uint32_t frame, uint32_t count) const;
@@ -73,6 +76,7 @@ class EmitterSampler {
 
   std::vector<EmissionEntry> entries_;
   std::vector<Emitter> emitters_;
+  std::vector<double> areas_;       ///< by entry [m²]
   std::vector<double> cumulative_;  ///< power up to and including each emitter
 };
 

@@ -1,7 +1,8 @@
 // Next event estimation by hints: points on the emissive triangles that the host draws each frame (paper, section 2.2).
 //
 // Rays meet emissive voxels, which are more than the triangles: what MIS gives to the rays is light of the voxels, what
-// it gives to the hints light of the triangles. The two differ by the area that voxels add.
+// it gives to the hints light of the triangles. The two differ by the area that voxels add, and so does the sum with
+// the shares.
 #ifndef LIGHTLOOM_LIB_HINTS
 #define LIGHTLOOM_LIB_HINTS
 
@@ -19,7 +20,7 @@ float hint_pdf(uint emission, float distance_squared, float cosine) {
 // Light of one hint, picked uniformly by `u`.
 PerLobe hint_light(Grid grid, texture3D distance_field, texture3D material, PathVertex vertex, float u) {
   uint count = frame.counts.z;
-  if (!has_emissive || !kSampleLights || count == 0u) return kNoLight;
+  if (count == 0u) return kNoLight;
   Hint hint = lights.hints[min(uint(u * float(count)), count - 1u)];
   uint emission = uint(hint.position.w);
   vec3 path = hint.position.xyz - vertex.position;
@@ -39,14 +40,10 @@ PerLobe hint_light(Grid grid, texture3D distance_field, texture3D material, Path
   return scaled(reflected, lights.emissions[emission].radiance.rgb * weight);
 }
 
-// Radiance of an emissive voxel that a scattered ray met at `distance_squared` [m^2], by its share beside the hints.
-vec3 hint_emitter_hit(uint emission, vec3 voxel_normal, vec3 direction, float distance_squared, BsdfSample scatter) {
-  if (!has_emissive || emission == 0u) return vec3(0.0);
-  float cosine = -dot(voxel_normal, direction);
-  if (lights.emissions[emission].sides.x > 0.5) cosine = abs(cosine);
-  if (cosine <= 0.0) return vec3(0.0);
-  float weight = light_hit_weight(scatter, hint_pdf(emission, distance_squared, cosine));
-  return lights.emissions[emission].radiance.rgb * weight;
+// Density [sr^-1] that a hint would have had where a scattered ray met an emissive voxel, `distance_squared` [m^2] away.
+float hint_hit_pdf(uint emission, vec3 voxel_normal, vec3 direction, float distance_squared) {
+  float cosine = abs(dot(voxel_normal, direction));
+  return hint_pdf(emission, distance_squared, cosine);
 }
 
 #endif

@@ -7,6 +7,7 @@
 const uint kDimensionLight = 0u;     // which hint, which punctual light, where on the sun's disc
 const uint kDimensionScatter = 1u;   // which lobe, direction
 const uint kDimensionEnvironment = 2u;   // direction from which light of the environment comes
+const uint kDimensionFace = 3u;      // which face of an emissive voxel, where on it
 
 struct RandomKey {
   uvec2 pixel;   // below 65536 each
@@ -33,11 +34,14 @@ uvec4 pcg4d(uvec4 v) {
 // Uniform in [0, 1 - 2^-24]: 24 bits are what a float holds, so 1 is never reached.
 vec4 uniform_floats(uvec4 bits) { return vec4(bits >> 8u) * (1.0 / 16777216.0); }
 
-// Four independent uniform numbers in [0, 1). `bounce` and `dimension` are below 256.
-vec4 random4(RandomKey key, uint bounce, uint dimension) {
+// 128 independent random bits. `bounce` and `dimension` are below 256.
+uvec4 random_bits(RandomKey key, uint bounce, uint dimension) {
   uint place = key.pixel.x | (key.pixel.y << 16u);
   uint use = key.path | (bounce << 16u) | (dimension << 24u);
-  return uniform_floats(pcg4d(uvec4(place, key.frame, use, key.seed)));
+  return pcg4d(uvec4(place, key.frame, use, key.seed));
 }
+
+// Four independent uniform numbers in [0, 1).
+vec4 random4(RandomKey key, uint bounce, uint dimension) { return uniform_floats(random_bits(key, bounce, dimension)); }
 
 #endif

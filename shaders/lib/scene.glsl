@@ -69,7 +69,8 @@ layout(std430) readonly buffer MaterialBlock { Material materials[]; };
 
 struct Emission {
   vec4 radiance;           // rgb [W m^-2 sr^-1]; w: density of the hints drawn on such a surface [m^-2]
-  vec4 sides;              // x: 1 if both sides emit, else 0
+  vec4 sides;              // x: 1 if both sides emit, else 0; y: area of the triangles that emit, one side of it [m^2];
+                           // z: luminance over that of the brightest entry
 };
 struct Hint {
   vec4 position;           // xyz [m]; w: index into the emission table

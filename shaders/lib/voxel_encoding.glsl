@@ -90,6 +90,13 @@ void encode_voxel(VoxelSurface s, out vec4 albedo, out vec4 normal, out vec4 mat
 
 bool voxel_occupied(vec4 albedo) { return albedo.a > 0.5; }
 
+// Unit normal of the front face, from the texel of the normal image.
+vec3 decode_voxel_normal(vec4 texel) {
+  vec3 normal, x, y;
+  decode_normal_frame(uvec2(from_unorm(texel.r), from_unorm(texel.g)), normal, x, y);
+  return normal;
+}
+
 // Never NaN, whatever the bytes.
 VoxelSurface decode_voxel(vec4 albedo, vec4 normal, vec4 material) {
   VoxelSurface s;

@@ -47,6 +47,15 @@ TEST(Lights, AreaDensityIntegratesToOne) {
   EXPECT_NEAR(sampler.area_density(2) / sampler.area_density(1), 0.5 * 0.2126 * 2, 1e-6);
 }
 
+TEST(Lights, EmittingAreaIsThatOfTheTriangles) {
+  const Scene scene = emitters().load();
+  const EmissionTable table = build_emission_table(scene);
+  const EmitterSampler sampler(scene, table);
+  EXPECT_EQ(sampler.emitting_area(0), 0);
+  EXPECT_NEAR(sampler.emitting_area(1), 1 + 0.25f, 1e-6);
+  EXPECT_NEAR(sampler.emitting_area(2), 6, 1e-6);
+}
+
 TEST(Lights, InverseDensitiesAverageToTheTotalArea) {
   const Scene scene = emitters().load();
   const EmissionTable table = build_emission_table(scene);
