@@ -1,0 +1,121 @@
+// Closed rooms: what is known of their light in closed form.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/passes/estimator_support.hpp"
+#include "tests/passes/light_support.hpp"
+#include "tests/support/device_fixture.hpp"
+
+namespace lightloom::test {
+namespace {
+
+constexpr uint32_t kSize = 24;
+
+class ClosedRoom : public DeviceTest {};
+
+/// The six walls of a box, facing inwards.
+std::vector<QuadSpec> walls(const glm::vec3& low, const glm::vec3& high, uint32_t material) {
+  const glm::vec3 d = high - low, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
+  return {{low + z, x, -z, material},  {low + y, x, z, material},  {low, x, y, material},
+          {high - y, -x, y, material}, {low + z, -z, y, material}, {low + x, z, y, material}};
+}
+
+/// Passes that trace with the faces of emissive voxels, once for each number of bounces, as trace0, trace1, …
+std::string traces(int resolution, const std::vector<int>& bounces, const std::string& params) {
+  std::string text = R"("voxelize": { "type": "voxelize", "params": { "resolution": )" + std::to_string(resolution) +
+                     R"( } },
+    "distance": { "type": "distance_transform", "in": { "voxels": "voxelize.voxels" } },
+    "faces": { "type": "emissive_faces", "in": { "voxels": "voxelize.voxels" } },
+    "gather": { "type": "gather" })";
+  for (const int bounce : bounces)
+    text += ", \"trace" + std::to_string(bounce) +
+            R"(": { "type": "voxel_path_trace", "in": { "surface": "gather.surface", "voxels": "voxelize.voxels",
+                 "distance": "distance.distance", "faces": "faces.faces" },
+                 "params": { "nee": "voxel_faces", "bounces": )" +
+            std::to_string(bounce) + ", " + params + " } }";
+  return text;
+}
+
+std::string outputs(const std::vector<int>& bounces) {
+  std::string text;
+  for (const int bounce : bounces) {
+    const std::string name = "trace" + std::to_string(bounce);
+    text += (text.empty() ? "\"" : ", \"") + name + "\": \"" + name + ".radiance\"";
+  }
+  return text;
+}
+
+TEST_F(ClosedRoom, EmissiveBoxSumsTheSeriesOfItsBounces) {
+  const std::vector<int> bounces = {0, 1, 2, 3, 4, 5};
+  for (const double albedo : {0.5, 0.8}) {
+    scene::Material wall = lambertian(glm::vec3(static_cast<float>(albedo)));
+    wall.emission = glm::vec3(2);
+    wall.double_sided = true;
+    // 32 voxels from wall to wall, so that walls are boundaries of voxels.
+    const scene::Scene scene =
+        make_quad_scene(walls(glm::vec3(-1), glm::vec3(1), 0), {wall}, look_at({0, 0, 0}, {0.3f, -0.2f, 1}, 1.2f));
+    GraphRunOptions options;
+    options.frames = 8;
+    const std::vector<Images> frames = run_graph(
+        graph_text(kSize, kSize, kSize, kSize, traces(34, bounces, R"("paths": 8)"), outputs(bounces)), scene, options);
+    for (const int bounce : bounces) {
+      // Light scattered 1 to bounce + 1 times, over the albedo that radiance is divided by.
+      const double expected = 2 * (1 - std::pow(albedo, bounce + 1)) / (1 - albedo);
+      const Estimate whole = image_estimate(frames, "trace" + std::to_string(bounce), 0).whole;
+      EXPECT_LT(std::abs(whole.mean - expected), 3 * whole.error + 1e-5 * expected)
+          << albedo << " " << bounce << ": " << whole.mean << " +- " << whole.error << ", not " << expected;
+    }
+  }
+}
+
+/// Two rooms that share a wall without thickness, with a lamp in one; seen from the other. All of it turned.
+scene::Scene two_rooms(const glm::mat3& turn) {
+  scene::Material wall = lambertian(glm::vec3(0.8f));
+  scene::Material lamp = lambertian(glm::vec3(0));
+  lamp.emission = glm::vec3(1e4f);
+  lamp.double_sided = true;
+  wall.double_sided = true;
+  std::vector<QuadSpec> quads = walls({-1, -1, -1}, {1, 1, 1}, 0);
+  quads.push_back({{0.07f, -1, 1}, {0, 0, -2}, {0, 2, 0}, 0});
+  quads.push_back({{-0.9f, 0.3f, -0.6f}, {0.8f, 0, 0}, {0, 0, 1.2f}, 1});
+  for (QuadSpec& quad : quads) quad = {turn * quad.corner, turn * quad.edge_u, turn * quad.edge_v, quad.material};
+  scene::Scene scene = make_quad_scene(quads, {wall, lamp},
+                                       look_at(turn * glm::vec3(0.95f, 0, 0), turn * glm::vec3(0, 0.1f, 0.05f), 2.4f));
+  scene::PunctualLight bulb;
+  bulb.intensity = glm::vec3(1e4f);
+  bulb.position = turn * glm::vec3(-0.5f, -0.4f, 0.2f);
+  scene.punctual = {bulb};
+  scene.features.punctual = true;
+  return scene;
+}
+
+glm::mat3 turned(float around_y, float around_x) {
+  return glm::mat3(glm::rotate(glm::rotate(glm::mat4(1), around_y, glm::vec3(0, 1, 0)), around_x, glm::vec3(1, 0, 0)));
+}
+
+class SealedRooms : public ClosedRoom, public testing::WithParamInterface<std::string> {};
+
+TEST_P(SealedRooms, LetNothingThrough) {
+  for (const glm::mat3& turn : {turned(0, 0), turned(0.4f, 0), turned(0.5f, 0.3f)}) {
+    const std::string passes = traces(40, {4}, R"("paths": 32, )" + GetParam());
+    const Images images = run_graph(graph_text(64, 64, 64, 64, passes, outputs({4})), two_rooms(turn)).front();
+    double lit = 0, largest = 0;
+    for (uint32_t y = 0; y < 64; ++y)
+      for (uint32_t x = 0; x < 64; ++x) {
+        lit += images.at("trace4").at(x, y, 0, 3);
+        largest = std::max(largest, images.at("trace4").at(x, y, 0, 0));
+      }
+    EXPECT_EQ(lit, 64 * 64);
+    EXPECT_EQ(largest, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Marches, SealedRooms, testing::Values(R"("march": "cube_exit")", R"("march": "dda")"),
+                         [](const testing::TestParamInfo<std::string>& mode) {
+                           return mode.index == 0 ? "cube_exit" : "dda";
+                         });
+
+}  // namespace
+}  // namespace lightloom::test
