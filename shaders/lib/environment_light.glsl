@@ -23,7 +23,7 @@ PerLobe environment_light(texture3D distance_field, PathVertex vertex, vec4 u) {
   float pdf;
   if (!environment_sampled() || !sample_environment(u, direction, pdf)) return kNoLight;
   PerLobe reflected = reflectance_towards(vertex, direction);
-  if (is_black(reflected) || march_ray(distance_field, vertex.origin, direction, 1e30).hit) return kNoLight;
+  if (is_black(reflected) || march_ray(distance_field, vertex.origin, direction, kFarAway).hit) return kNoLight;
   float weight = light_sample_weight(pdf, scatter_pdf(vertex, direction));
   return scaled(reflected, environment_radiance(direction) * weight);
 }
