@@ -53,6 +53,7 @@ std::vector<std::string> port_notes(const Port& port) {
   std::vector<std::string> notes;
   if (port.optional) notes.emplace_back("optional");
   if (port.array) notes.emplace_back("takes a history range @a..b");
+  if (port.persistent) notes.emplace_back("kept from frame to frame");
   if (port.direction != Direction::out) return notes;
   if (!port.bypass) {
     notes.emplace_back("no bypass");
@@ -130,6 +131,7 @@ nlohmann::ordered_json port_json(const Port& port) {
                                  {"extent", extent_text(port)},
                                  {"optional", port.optional},
                                  {"history_range", port.array},
+                                 {"persistent", port.persistent},
                                  {"bypass", nullptr},
                                  {"parts", parts},
                                  {"doc", port.doc}};
