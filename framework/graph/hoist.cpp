@@ -14,7 +14,7 @@ constexpr std::array<std::pair<FrameState, const char*>, 7> kStateNames{{
     {FrameState::time, "the time"},
     {FrameState::seed, "the seed"},
     {FrameState::static_geometry, "static geometry"},
-    {FrameState::dynamic_geometry, "dynamic geometry, of which there is none"},
+    {FrameState::dynamic_geometry, "dynamic geometry (there is none)"},
     {FrameState::materials, "materials"},
     {FrameState::lights, "lights"},
 }};
