@@ -13,8 +13,9 @@ PassType make_temporal_accumulate() {
   PassType type;
   type.name = "temporal_accumulate";
   type.doc =
-      "Weighted mean of the traced frames of the recent past. Each surface point is projected into every earlier "
-      "frame; frames in which it was hidden are left out; the age weight follows a Hermite curve that is flat for a "
+      "Weighted mean of the traced frames of the recent past. Each surface point is followed to where its object and "
+      "the camera were in every earlier frame; frames in which it was hidden are left out; the age weight follows a "
+      "Hermite curve that is flat for a "
       "Lambertian surface and keeps only the current frame for a mirror (paper, section 2.3).";
   Port radiance = image_output_like("radiance", Format::rgba32_sfloat, "radiance",
                                     "rgb: accumulated radiance; a: sum of the weights (1 to `frames`), 0 where there "
@@ -70,7 +71,7 @@ PassType make_temporal_accumulate() {
        "largest distance between a point and what an earlier frame saw in its place, in footprints of a pixel there"},
       {"normal_threshold", ParamType::real, 0.9, -1, 1, {}, "", "smallest cosine between the two normals"},
   };
-  type.reads = FrameState::camera;
+  type.reads = FrameState::camera | FrameState::dynamic_geometry;
   type.record = [](PassContext& context) {
     context.dispatch({"temporal_accumulate.comp", context.output_extent("radiance"), {}});
   };

@@ -6,6 +6,7 @@
 
 #include "lib/filter.glsl"
 #include "lib/modulation.glsl"
+#include "lib/motion.glsl"
 #include "lib/sampling.glsl"
 #include "lib/scene.glsl"
 #include "lib/variance.glsl"
@@ -59,6 +60,10 @@ const int kNeighbourRadius = 2;
 uint layer_of(uint newest_layer, uint ring, uint age) { return (newest_layer + ring - age) % ring; }
 
 bool same_material(uvec4 a, uvec4 b) { return a.xy == b.xy; }
+
+Point past_point(Point point, uint age) {
+  return Point(past_position(point.id, point.position, age), past_normal(point.id, point.normal, age), point.id);
+}
 
 // Does `seen`, which frame `age` saw in the pixel that `point` falls into, lie on the surface of `point`? `clip_w` is
 // the clip coordinate of `point` in that frame.
@@ -150,7 +155,7 @@ void main() {
   for (uint age = trail_first_age; age < trail_first_age + trail_count && age < frames && age <= frame.ids.z; ++age) {
     float weight = history_weight(float(age), float(frames), roughness);
     ivec2 earlier;
-    if (weight <= 0.0 || !find_in_frame(age, point, size, earlier)) continue;
+    if (weight <= 0.0 || !find_in_frame(age, past_point(point, age), size, earlier)) continue;
     vec4 past = texelFetch(trail, ivec3(earlier, layer_of(trail_newest_layer, trail_ring, age)), 0);
     if (past.a > 0.0) add_frame(past.rgb, weight, sum, moments);
   }

@@ -68,6 +68,9 @@ FrameBlock make_frame_block(const scene::Scene& scene, const FrameInputs& inputs
   const auto triangles = static_cast<uint32_t>(scene.triangles.size());
   block.counts = glm::uvec4(scene.static_triangle_count, triangles - scene.static_triangle_count, inputs.hint_count,
                             static_cast<uint32_t>(scene.punctual.size()));
+  block.motion =
+      glm::uvec4(scene.static_vertex_count, static_cast<uint32_t>(scene.vertices.size()) - scene.static_vertex_count,
+                 inputs.newest_slot, static_cast<uint32_t>(std::min<size_t>(inputs.views.size(), kHistoryLimit)));
   return block;
 }
 

@@ -27,6 +27,7 @@ struct FrameInputs {
   uint32_t history_length = 0;  ///< earlier frames that the history rings hold
   std::vector<View> views;      ///< [age], newest first, 1 to kHistoryLimit of them
   uint32_t hint_count = 0;
+  uint32_t newest_slot = 0;  ///< of the past positions; as many are filled as there are views
 };
 
 [[nodiscard]] FrameBlock make_frame_block(const scene::Scene& scene, const FrameInputs& inputs);

@@ -32,16 +32,19 @@ constexpr FrameState kGeometry = FrameState::static_geometry | FrameState::dynam
 constexpr std::array kBindings = {
     DeclaredRead{"VertexBlock", kGeometry},
     DeclaredRead{"TriangleBlock", kGeometry},
+    DeclaredRead{"PastPositionBlock", FrameState::dynamic_geometry},
     DeclaredRead{"MaterialBlock", FrameState::materials},
     DeclaredRead{"texture_pages", FrameState::materials},
     DeclaredRead{"LightBlock", FrameState::lights},
     DeclaredRead{"environment_map", FrameState::lights},
+    DeclaredRead{"environment_table", FrameState::lights},
 };
 /// The rest of the frame block is the same in every frame.
 constexpr std::array kFrameMembers = {
     DeclaredRead{"view_projection", FrameState::camera},
     DeclaredRead{"eye", FrameState::camera},
     DeclaredRead{"inverse_view_projection", FrameState::camera},
+    DeclaredRead{"motion", FrameState::dynamic_geometry},
     // Which frame it is, the seed, and how many frames the histories hold, which goes with the cameras of the past.
     DeclaredRead{"ids", FrameState::time | FrameState::seed | FrameState::camera},
 };

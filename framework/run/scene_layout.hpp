@@ -25,8 +25,9 @@ struct FrameBlock {
   glm::vec4 sun_irradiance;
   glm::vec4 environment;
   glm::uvec4 counts;
+  glm::uvec4 motion;
 };
-static_assert(sizeof(FrameBlock) == kHistoryLimit * 80 + 64 + 7 * 16);
+static_assert(sizeof(FrameBlock) == kHistoryLimit * 80 + 64 + 8 * 16);
 
 struct EmissionEntry {
   glm::vec4 radiance;

@@ -32,6 +32,11 @@ VkDeviceSize dynamic_vertex_bytes(const scene::Scene& scene) {
   return (scene.vertices.size() - scene.static_vertex_count) * sizeof(scene::Vertex);
 }
 
+/// Of one slot of the past positions.
+VkDeviceSize dynamic_position_bytes(const scene::Scene& scene) {
+  return (scene.vertices.size() - scene.static_vertex_count) * sizeof(glm::vec4);
+}
+
 gpu::Buffer storage_buffer(gpu::Device& device, VkDeviceSize size, const char* name) {
   const VkDeviceSize limit = device.info().limits.maxStorageBufferRange;
   if (size > limit)
@@ -130,9 +135,11 @@ SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene, S
       samplers_(device),
       vertices_(storage_buffer(device, scene.vertices.size() * sizeof(scene::Vertex), "vertices")),
       triangles_(storage_buffer(device, scene.triangles.size() * sizeof(scene::Triangle), "triangles")),
+      past_positions_(storage_buffer(device, kHistoryLimit * dynamic_position_bytes(scene), "past positions")),
       frame_block_(uniform_buffer(device, sizeof(FrameBlock), "frame block")),
       light_block_(uniform_buffer(device, sizeof(LightBlock), "light block")),
-      staging_(device, kVertexOffset + dynamic_vertex_bytes(scene), 0, gpu::MemoryKind::upload, "frame inputs") {
+      staging_(device, kVertexOffset + dynamic_vertex_bytes(scene) + dynamic_position_bytes(scene), 0,
+               gpu::MemoryKind::upload, "frame inputs") {
   check_path(options_, scene.cameras[camera_]);
   upload_geometry(device);
   upload_materials(device);
@@ -183,6 +190,7 @@ void SceneResources::bind() {
   resources.emplace("LightBlock", gpu::resource(light_block_));
   resources.emplace("VertexBlock", gpu::resource(vertices_));
   resources.emplace("TriangleBlock", gpu::resource(triangles_));
+  resources.emplace("PastPositionBlock", gpu::resource(past_positions_));
   resources.emplace("MaterialBlock", gpu::resource(materials_.front()));
   resources.emplace("texture_pages", pages);
   resources.emplace("environment_map", gpu::resource(environment_.front(), samplers_.equirectangular()));
@@ -223,6 +231,7 @@ FrameConditions SceneResources::prepare(uint32_t frame) {
   if (options_.camera_path) camera = scene::camera_on_path(*options_.camera_path, time, camera);
   views_.push_front(view_of(camera, options_.view, scene_.bounds));
   if (views_.size() > kHistoryLimit) views_.pop_back();
+  newest_slot_ = (newest_slot_ + 1) % kHistoryLimit;
 
   LightBlock lights{};
   const uint32_t hint_count = fill_light_block(lights, pose, frame);
@@ -230,14 +239,25 @@ FrameConditions SceneResources::prepare(uint32_t frame) {
                                                      .seed = options_.seed,
                                                      .history_length = history_length,
                                                      .views = {views_.begin(), views_.end()},
-                                                     .hint_count = hint_count});
+                                                     .hint_count = hint_count,
+                                                     .newest_slot = newest_slot_});
   const std::span<std::byte> staging = staging_.mapped();
   std::memcpy(staging.data(), &block, sizeof block);
   std::memcpy(staging.data() + kLightOffset, &lights, sizeof lights);
-  if (!pose.dynamic_vertices.empty())
-    std::memcpy(staging.data() + kVertexOffset, pose.dynamic_vertices.data(),
-                pose.dynamic_vertices.size() * sizeof(scene::Vertex));
+  stage_geometry(pose.dynamic_vertices);
   return {.time = time, .history_length = history_length, .view = views_.front()};
+}
+
+void SceneResources::stage_geometry(const std::vector<scene::Vertex>& moving) {
+  if (moving.empty()) return;
+  std::byte* target = staging_.mapped().data() + kVertexOffset;
+  std::memcpy(target, moving.data(), moving.size() * sizeof(scene::Vertex));
+  target += moving.size() * sizeof(scene::Vertex);
+  for (const scene::Vertex& vertex : moving) {
+    const glm::vec4 position(vertex.position, 1);
+    std::memcpy(target, &position, sizeof position);
+    target += sizeof position;
+  }
 }
 
 void SceneResources::record_upload(VkCommandBuffer commands) const {
@@ -247,8 +267,11 @@ void SceneResources::record_upload(VkCommandBuffer commands) const {
   };
   copy(0, frame_block_, 0, sizeof(FrameBlock));
   copy(kLightOffset, light_block_, 0, sizeof(LightBlock));
-  if (const VkDeviceSize moving = dynamic_vertex_bytes(scene_); moving > 0)
-    copy(kVertexOffset, vertices_, VkDeviceSize{scene_.static_vertex_count} * sizeof(scene::Vertex), moving);
+  const VkDeviceSize moving = dynamic_vertex_bytes(scene_);
+  if (moving == 0) return;
+  copy(kVertexOffset, vertices_, VkDeviceSize{scene_.static_vertex_count} * sizeof(scene::Vertex), moving);
+  const VkDeviceSize slot = dynamic_position_bytes(scene_);
+  copy(kVertexOffset + moving, past_positions_, newest_slot_ * slot, slot);
 }
 
 }  // namespace lightloom::run

@@ -45,22 +45,25 @@ class SceneResources {
   void upload_materials(gpu::Device& device);
   void upload_environment(gpu::Device& device);
   void bind();
+  void stage_geometry(const std::vector<scene::Vertex>& moving);
   /// Returns the number of hints.
   uint32_t fill_light_block(LightBlock& block, const scene::Pose& pose, uint32_t frame);
 
   const scene::Scene& scene_;
   SceneResourceOptions options_;
   size_t camera_ = 0;
-  std::deque<View> views_;  ///< newest first
+  std::deque<View> views_;    ///< newest first
+  uint32_t newest_slot_ = 0;  ///< of past_positions_
   scene::EmissionTable emission_;
   scene::EmitterSampler emitters_;
   std::vector<std::string> warnings_;
   gpu::Samplers samplers_;
   gpu::Buffer vertices_;
   gpu::Buffer triangles_;
+  gpu::Buffer past_positions_;  ///< kHistoryLimit slots of a vec4 for each dynamic vertex
   gpu::Buffer frame_block_;
   gpu::Buffer light_block_;
-  gpu::Buffer staging_;                    ///< FrameBlock, LightBlock, then the dynamic vertices
+  gpu::Buffer staging_;                    ///< FrameBlock, LightBlock, the dynamic vertices, their positions
   std::vector<gpu::Buffer> materials_;     ///< one
   std::vector<gpu::Image> texture_pages_;  ///< as many as shaders declare; white beyond those in use
   uint32_t used_page_count_ = 0;

@@ -22,6 +22,7 @@ layout(std140) uniform FrameBlock {
   vec4 sun_irradiance;     // rgb on a surface that faces the sun [W m^-2]; w: 1 - cosine of the angular radius
   vec4 environment;        // rgb: radiance, or the scale of environment_map [W m^-2 sr^-1]
   uvec4 counts;            // x: static triangles, y: dynamic triangles, z: hints, w: punctual lights
+  uvec4 motion;            // x: first dynamic vertex, y: dynamic vertices, z: newest slot of past_positions, w: slots filled
 } frame;
 
 // Packed as floats so that std430 has no padding. color: RGBA8 unorm in linear space, as uint bits.
@@ -37,6 +38,8 @@ struct Triangle { uint a, b, c, material, object; };
 
 layout(std430) readonly buffer VertexBlock { Vertex vertices[]; };
 layout(std430) readonly buffer TriangleBlock { Triangle triangles[]; };   // static first, then dynamic
+// Where the dynamic vertices were: kHistoryLimit slots, used in turn, of frame.motion.y positions [m]; see motion.glsl.
+layout(std430) readonly buffer PastPositionBlock { vec4 past_positions[]; };
 
 struct TextureSlot {
   uint page;               // 0xFFFFFFFF: no texture

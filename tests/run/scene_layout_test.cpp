@@ -34,7 +34,7 @@ layout(local_size_x = 1) in;
 layout(std430) writeonly buffer ResultBlock { float result; };
 void main() {
   result = frame.counts.x + vertices[0].v1 + triangles[0].object + materials[0].flags.w +
-           lights.emissions[1].sides.x + lights.hints[1].normal.x + lights.punctual[1].cone.x;
+           lights.emissions[1].sides.x + lights.hints[1].normal.x + lights.punctual[1].cone.x + past_positions[1].x;
 })";
     const gpu::ShaderSource source{"user.comp", kUser, gpu::Stage::compute};
     gpu::ShaderCompiler compiler({.include_directories = default_shader_folders().sources, .cache_directory = {}});
@@ -63,6 +63,7 @@ TEST_F(SceneLayout, FrameBlock) {
       {"sun_irradiance", offsetof(FrameBlock, sun_irradiance)},
       {"environment", offsetof(FrameBlock, environment)},
       {"counts", offsetof(FrameBlock, counts)},
+      {"motion", offsetof(FrameBlock, motion)},
   };
   EXPECT_EQ(offsets("FrameBlock"), expected);
   EXPECT_EQ(reflection.find_binding("FrameBlock")->block_size, sizeof(FrameBlock));
@@ -92,6 +93,10 @@ TEST_F(SceneLayout, VerticesAndTriangles) {
   EXPECT_EQ(triangle.at("triangles[]"), sizeof(scene::Triangle));
   EXPECT_EQ(triangle.at("triangles.material"), offsetof(scene::Triangle, material));
   EXPECT_EQ(triangle.at("triangles.object"), offsetof(scene::Triangle, object));
+}
+
+TEST_F(SceneLayout, PastPositions) {
+  EXPECT_EQ(offsets("PastPositionBlock").at("past_positions[]"), sizeof(glm::vec4));
 }
 
 TEST_F(SceneLayout, Materials) {
