@@ -12,6 +12,14 @@ uniform texture2D out_surface_position;   // outputs of the draw before
 uniform utexture2D out_surface_id;
 uniform writeonly image2D out_motion;
 
+// Direction that a perspective camera sees at a place in clip space. The rows of its matrix that give x, y and w are
+// orthogonal; the inverse would lose digits to the ratio of the near and far planes.
+vec3 view_direction(vec2 clip) {
+  mat4 rows = transpose(frame.view_projection[0]);
+  vec3 x = rows[0].xyz, y = rows[1].xyz, w = rows[3].xyz;
+  return x * (clip.x / dot(x, x)) + y * (clip.y / dot(y, y)) + w / dot(w, w);
+}
+
 // From where a point of homogeneous coordinates is now to where it was, `before` being the point a frame ago [pixels].
 vec2 screen_motion(vec4 point, vec4 before, vec2 size) {
   vec4 now = frame.view_projection[0] * point;
@@ -30,9 +38,7 @@ void main() {
     vec3 before = past_position(texelFetch(out_surface_id, pixel, 0), position.xyz, 1u);
     motion = screen_motion(vec4(position.xyz, 1.0), vec4(before, 1.0), vec2(size));
   } else if (frame.eye[0].w > 0.5) {
-    vec2 clip = (vec2(pixel) + 0.5) / vec2(size) * 2.0 - 1.0;
-    vec4 far = frame.inverse_view_projection * vec4(clip, 1.0, 1.0);
-    vec4 direction = vec4(normalize(far.xyz / far.w - frame.eye[0].xyz), 0.0);
+    vec4 direction = vec4(view_direction((vec2(pixel) + 0.5) / vec2(size) * 2.0 - 1.0), 0.0);
     motion = screen_motion(direction, direction, vec2(size));
   }
   imageStore(out_motion, pixel, vec4(frame.ids.z > 0u ? motion : vec2(0.0), 0.0, 0.0));

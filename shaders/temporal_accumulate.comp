@@ -85,7 +85,8 @@ bool find_in_frame(uint age, Point point, ivec2 size, out ivec2 pixel) {
   vec2 place = clip_to_pixel(clip, vec2(size));
   if (!(all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(size))))) return false;
   pixel = min(ivec2(place), size - 1);
-  vec4 seen = texelFetch(trail_position, ivec3(pixel, layer_of(trail_position_newest_layer, trail_position_ring, age)), 0);
+  uint position_layer = layer_of(trail_position_newest_layer, trail_position_ring, age);
+  vec4 seen = texelFetch(trail_position, ivec3(pixel, position_layer), 0);
   if (!(seen.w > 0.0)) return false;
   if (trail_id_bound) {
     uint id_layer = layer_of(trail_id_newest_layer, trail_id_ring, age);

@@ -16,9 +16,9 @@ Corners past_corners(Triangle t, uint age) {
   return Corners(past_positions[base + t.a].xyz, past_positions[base + t.b].xyz, past_positions[base + t.c].xyz);
 }
 
-// Where the surface point with `surface.id` and `surface.position` [m] was `age` frames ago. What is added is how far the
-// corners have moved since, so that the id's rounding of the weights counts by the motion's change over the triangle
-// alone.
+// Where the surface point with `surface.id` and `surface.position` [m] was `age` frames ago: exact for rigid, skinned
+// and morphed objects alike, because points keep their place on their triangle. What is added is how far the corners
+// have moved since, so that the id's rounding of the weights counts by the motion's change over the triangle alone.
 vec3 past_position(uvec4 id, vec3 position, uint age) {
   if (!is_dynamic(id)) return position;
   Triangle t = triangles[id.z];

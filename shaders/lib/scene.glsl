@@ -22,7 +22,7 @@ layout(std140) uniform FrameBlock {
   vec4 sun_irradiance;     // rgb on a surface that faces the sun [W m^-2]; w: 1 - cosine of the angular radius
   vec4 environment;        // rgb: radiance, or the scale of environment_map [W m^-2 sr^-1]
   uvec4 counts;            // x: static triangles, y: dynamic triangles, z: hints, w: punctual lights
-  uvec4 motion;            // x: first dynamic vertex, y: dynamic vertices, z: newest slot of past_positions, w: slots filled
+  uvec4 motion;            // first dynamic vertex, dynamic vertices; of past_positions: newest slot, slots filled
 } frame;
 
 // Packed as floats so that std430 has no padding. color: RGBA8 unorm in linear space, as uint bits.

@@ -12,15 +12,16 @@ PassType make_pattern() {
   type.doc = "A known image.";
   type.ports = {passes::surface_input("surface", "gives the size and the patterns that follow it"),
                 passes::image_output_like("radiance", Format::rgba32_sfloat, "surface", "the pattern")};
-  type.params = {{"pattern",
-                  ParamType::choice,
-                  std::string("constant"),
-                  {},
-                  {},
-                  {"constant", "noise", "impulse", "normal", "object", "ramp", "frame", "spoilt", "bump", "step"},
-                  "",
-                  "which"},
-                 {"scale", ParamType::real, 1.0, {}, {}, {}, "", "factor on it"}};
+  type.params = {
+      {"pattern",
+       ParamType::choice,
+       std::string("constant"),
+       {},
+       {},
+       {"constant", "noise", "impulse", "normal", "object", "ramp", "frame", "spoilt", "bump", "step", "texture"},
+       "",
+       "which"},
+      {"scale", ParamType::real, 1.0, {}, {}, {}, "", "factor on it"}};
   type.reads = FrameState::time | FrameState::seed | FrameState::camera;
   type.record = [](PassContext& context) { context.dispatch({"pattern.comp", context.output_extent("radiance"), {}}); };
   return type;

@@ -11,7 +11,7 @@
 namespace lightloom::test {
 
 /// A test pass: `surface` in, `radiance` out with a known pattern (param `pattern`: constant, noise, impulse, normal,
-/// object, ramp, frame, spoilt, bump, step) times the param `scale`, as large as `surface`.
+/// object, ramp, frame, spoilt, bump, step, texture) times the param `scale`, as large as `surface`.
 PassType make_pattern();
 
 /// Graph text around `passes` (the inner text of "passes"); `outputs` likewise.

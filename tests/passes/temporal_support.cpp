@@ -7,7 +7,15 @@
 namespace lightloom::test {
 namespace {
 
-/// Position of the surface, moved by a metre towards the viewer in odd frames.
+double weight(int age, double roughness) {
+  if (age == 0) return 1;
+  if (roughness <= 0) return 0;
+  const double x = std::clamp(1 - age / 10.0 * (1 - roughness) / roughness, 0.0, 1.0);
+  return x * x * (3 - 2 * x);
+}
+
+}  // namespace
+
 PassType make_test_displace() {
   PassType type;
   type.name = "test_displace";
@@ -20,15 +28,6 @@ PassType make_test_displace() {
   };
   return type;
 }
-
-double weight(int age, double roughness) {
-  if (age == 0) return 1;
-  if (roughness <= 0) return 0;
-  const double x = std::clamp(1 - age / 10.0 * (1 - roughness) / roughness, 0.0, 1.0);
-  return x * x * (3 - 2 * x);
-}
-
-}  // namespace
 
 scene::Scene wall(const scene::Material& material) {
   return make_quad_scene({{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}}, {material}, look_at({0.3f, 0.2f, 3}, {0, 0, 0}, 0.8f));

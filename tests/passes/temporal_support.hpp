@@ -14,6 +14,9 @@ scene::Scene wall(const scene::Material& material);
 
 scene::Material metal(float roughness);
 
+/// Test pass: position of the surface, moved by a metre towards the viewer in odd frames.
+PassType make_test_displace();
+
 /// Graph of `gather`, a test `pattern` and `temporal` (10 frames), all of kTemporalSize. `position`: the value that the
 /// trail of positions is made of. `params`: of `temporal`, as JSON members. Outputs: radiance, current, variance.
 std::string temporal_graph(const std::string& pattern, const std::string& params = "",

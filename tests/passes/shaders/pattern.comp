@@ -14,7 +14,8 @@ uniform utexture2D surface_id;
 uniform writeonly image2D out_radiance;
 
 layout(push_constant) uniform Params {
-  uint pattern;   // 0 constant, 1 noise, 2 impulse, 3 normal, 4 object, 5 ramp, 6 frame, 7 spoilt, 8 bump, 9 step
+  uint pattern;   // 0 constant, 1 noise, 2 impulse, 3 normal, 4 object, 5 ramp, 6 frame, 7 spoilt, 8 bump, 9 step,
+                  // 10 texture
   float scale;
 };
 
@@ -28,6 +29,11 @@ vec3 value(ivec2 pixel, ivec2 size) {
   if (pattern == 7u) return pixel == size / 2 ? vec3(uintBitsToFloat(0x7FC00000u)) : vec3(1.0);
   if (pattern == 8u) return vec3(pixel == size / 2 ? 1.0078125 : 1.0);
   if (pattern == 9u) return vec3(pixel.x < size.x / 2 ? 1.0 : 2.0);
+  if (pattern == 10u) {   // coordinates on a square of two triangles that share the corners 0 and 2
+    uvec4 id = texelFetch(surface_id, pixel, 0);
+    vec2 w = unpackUnorm2x16(id.w);
+    return (id.z & 1u) == 0u ? vec3(w.x + w.y, w.y, 0.0) : vec3(w.x, w.x + w.y, 0.0);
+  }
   return vec3(0.25, 0.5, 2.0);
 }
 
