@@ -15,6 +15,9 @@ using scene::test::GltfBuilder;
 constexpr double kFramesPerSecond = 30;
 constexpr double kEnd = kAnimationFrames / kFramesPerSecond;
 
+/// Frames and the values that hold from them on.
+using Keys = std::vector<std::pair<uint32_t, glm::dvec3>>;
+
 /// Builds the glTF file: the wall, and whatever the caller adds to it.
 class Stage {
  public:
@@ -34,7 +37,7 @@ class Stage {
   }
 
   /// A value that jumps between two frames: keys lie in the middle, away from rounding.
-  void jump(int node, const std::string& path, const std::vector<std::pair<uint32_t, glm::dvec3>>& keys) {
+  void jump(int node, const std::string& path, const Keys& keys) {
     std::vector<float> times, values;
     for (const auto& [frame, value] : keys) {
       times.push_back(frame == 0 ? 0.0f : static_cast<float>((frame - 0.5) / kFramesPerSecond));
@@ -192,7 +195,8 @@ MovingScene jumping_scene(const glm::dvec3& before, const glm::dvec3& after, uin
 MovingScene flickering_scene(uint32_t appear, uint32_t vanish) {
   Stage stage;
   stage.jump(stage.mover(stage.centred_square(0.8)), "scale",
-             {{0, glm::dvec3(0)}, {appear, glm::dvec3(1)}, {vanish, glm::dvec3(0)}});
+             appear == 0 ? Keys{{0, glm::dvec3(1)}, {vanish, glm::dvec3(0)}}
+                         : Keys{{0, glm::dvec3(0)}, {appear, glm::dvec3(1)}, {vanish, glm::dvec3(0)}});
   return {stage.load(), still_camera, unmoved};
 }
 
