@@ -74,6 +74,10 @@ std::vector<Param> params() {
           "how rays go through the grid: by steps as long as the distance to the nearest occupied voxel (sphere, the "
           "paper's, which steps over corners); to the end of the empty cube around them (cube_exit) or from voxel to "
           "voxel (dda), which both find every voxel that a ray touches"),
+      choice("start", "clearance", {"clearance", "sqrt3"},
+             "where the rays of a surface start: as far along its normal as it takes to leave the voxels of its plane, "
+             "|x| + |y| + |z| voxels, one and a half times that from the middle of a voxel (clearance), or sqrt(3) "
+             "voxels from where the surface was hit (sqrt3, the paper's author's)"),
       choice(
           "nee", "hints", {"hints", "voxel_faces"},
           "next event estimation towards emissive surfaces: by points on their triangles (hints, the paper's), which "

@@ -56,7 +56,7 @@ PathVertex surface_vertex(Grid grid, ivec2 pixel) {
   vec3 normal = facing_normal(normalize(texelFetch(surface_normal, pixel, 0).xyz), to_viewer);
   vertex.basis = make_frame(normal, texelFetch(surface_tangent, pixel, 0).xyz);
   vertex.incoming = to_local(vertex.basis, to_viewer);
-  vertex.origin = world_to_grid(grid, position) + vertex.geometric_normal * surface_clearance(vertex.geometric_normal);
+  vertex.origin = world_to_grid(grid, position) + vertex.geometric_normal * start_offset(vertex.geometric_normal);
   vertex.bsdf = Bsdf(albedo.rgb, albedo.w, material.z, material.w, material.xy);
   return vertex;
 }
@@ -74,8 +74,9 @@ PathVertex voxel_vertex(Grid grid, MarchHit hit, vec3 origin, vec3 direction, Vo
   vertex.position = grid_to_world(grid, position);
   // A normal that faces away may be that of the other wall of an edge, and its back the outside of the room: then the
   // path goes on from the last place that was empty.
-  vertex.origin = front ? position + normal * (1.5 * surface_clearance(normal))
-                        : origin + direction * max(hit.t - 1.0, 0.0);
+  vec3 lifted = start == kStartSqrt3 ? hit_position + normal * start_offset(normal)
+                                     : position + normal * (1.5 * surface_clearance(normal));
+  vertex.origin = front ? lifted : origin + direction * max(hit.t - 1.0, 0.0);
   vertex.geometric_normal = normal;
   vertex.basis = make_frame(facing_normal(normal, -direction), surface.tangent);
   vertex.incoming = to_local(vertex.basis, -direction);
