@@ -114,5 +114,42 @@ TEST_F(LightFormFactor, NothingBehindAOneSidedLamp) {
   EXPECT_EQ(frame_estimate(frames, 1).mean(), 0);
 }
 
+/// A lamp whose voxels are exactly the box over its rectangle: both lie a hundredth of a voxel inside.
+scene::Scene under_voxels() {
+  constexpr float kVoxel = 1.0f / 32;
+  scene::Scene scene = under(ceiling_lamp(0.5f - 0.01f * kVoxel, 1 + 0.01f * kVoxel));
+  scene.bounds = {{-1, 0, -1}, {1, 1 + kVoxel, 1}};
+  return scene;
+}
+
+TEST_F(LightFormFactor, VoxelsOfALampAreFoundInFullByEachStrategy) {
+  // Rays leave the floor 1.01 voxels above it.
+  const double height = 1 - 1.01 / 32;
+  for (const char* strategy : {"mis", "nee", "bsdf"}) {
+    const std::string text = graph_text(
+        32, 32, 32, 32,
+        R"("faces": { "type": "emissive_faces", "in": { "voxels": "voxelize.voxels" } }, )" +
+            trace_passes(
+                66, R"("paths": 32, "bounces": 0, "nee": "voxel_faces", "strategy": ")" + std::string(strategy) + "\"",
+                R"(, "faces": "faces.faces")"),
+        R"("radiance": "trace.radiance", "position": "gather.surface.position")");
+    GraphRunOptions options;
+    options.frames = 12;
+    const std::vector<Images> frames = run_graph(text, under_voxels(), options);
+    double exact = 0;
+    for (uint32_t y = 0; y < 32; ++y)
+      for (uint32_t x = 0; x < 32; ++x) {
+        const glm::dvec3 p = surface_position(frames.front(), x, y);
+        // The four rectangles that meet over the element.
+        for (const double a : {0.5 - p.x, 0.5 + p.x})
+          for (const double b : {0.5 - p.z, 0.5 + p.z})
+            exact += kRadiance * element_to_corner(a / height, b / height) / (32 * 32);
+      }
+    const SampleMean light = frame_estimate(frames, 1);
+    EXPECT_NEAR(light.mean(), exact, 3 * light.error() + 2e-4 * exact) << strategy;
+    EXPECT_LT(light.error(), 5e-3 * exact) << strategy;
+  }
+}
+
 }  // namespace
 }  // namespace lightloom::test

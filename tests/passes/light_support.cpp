@@ -55,14 +55,14 @@ double mean_of(const image::HostImage& image, uint32_t channel, uint32_t x0, uin
   return sum / count;
 }
 
-std::string trace_passes(int resolution, const std::string& extra) {
+std::string trace_passes(int resolution, const std::string& extra, const std::string& inputs) {
   return R"("voxelize": { "type": "voxelize", "params": { "geometry": "all", "resolution": )" +
          std::to_string(resolution) + R"( } },
     "distance": { "type": "distance_transform", "in": { "voxels": "voxelize.voxels" } },
     "gather": { "type": "gather" },
     "trace": { "type": "voxel_path_trace", "in": { "surface": "gather.surface", "voxels": "voxelize.voxels",
-               "distance": "distance.distance" }, "params": { )" +
-         extra + " } }";
+               "distance": "distance.distance")" +
+         inputs + R"( }, "params": { )" + extra + " } }";
 }
 
 }  // namespace lightloom::test

@@ -24,7 +24,8 @@ scene::Material lambertian(const glm::vec3& base_color);
 /// Mean of a channel over the pixels with alpha above 0 in [x0, x1) x [y0, y1).
 double mean_of(const image::HostImage& image, uint32_t channel, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1);
 
-/// The chain voxelize, distance, gather (all of one size), trace; `extra` are the trace's params as JSON members.
-std::string trace_passes(int resolution, const std::string& extra);
+/// The chain voxelize, distance, gather (all of one size), trace; `extra` are the trace's params, `inputs` more of its
+/// inputs (with a comma ahead), both as JSON members.
+std::string trace_passes(int resolution, const std::string& extra, const std::string& inputs = "");
 
 }  // namespace lightloom::test
