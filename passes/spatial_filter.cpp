@@ -83,7 +83,8 @@ std::vector<Param> guide_params() {
        {},
        "standard errors",
        "with `variance` connected, neighbours whose luminance differs by more than this many standard errors of the "
-       "difference are left out: shadow edges stay; 0 turns it off"},
+       "difference are left out: shadow edges stay; at least 5 where alpha, the frames behind a pixel, is below 4; 0 "
+       "turns it off"},
   };
 }
 
@@ -100,8 +101,9 @@ PassType make_spatial_filter(const std::string& name, std::string doc, std::vect
                                                        "estimated variance of the luminance of `radiance`; "
                                                        "unconnected: the filter has its full length everywhere"));
   variance.optional = true;
-  type.ports = {image_input("radiance", Format::rgba32_sfloat, "what to filter; a: 0 where there is nothing"),
-                same_size_as("radiance", surface_input("surface", "G-buffer of the same pixels")), variance, radiance};
+  type.ports = {
+      image_input("radiance", Format::rgba32_sfloat, "what to filter; a: frames behind it, 0 where there is nothing"),
+      same_size_as("radiance", surface_input("surface", "G-buffer of the same pixels")), variance, radiance};
   type.params = std::move(own_params);
   for (Param& param : shape_params()) type.params.push_back(std::move(param));
   for (Param& param : guide_params()) type.params.push_back(std::move(param));

@@ -98,12 +98,18 @@ bool load_centre(ivec2 pixel, FilterShape shape, out Centre centre) {
   return true;
 }
 
+// Where fewer than so many frames stand behind a pixel, the variance is estimated from the 25 pixels around it
+// (temporal_accumulate): a single bright one among them is sqrt(24) of their standard deviations above the rest.
+const float kHistoryOfOwn = 4.0;
+const float kNeighbourhoodLimit = 5.0;
+
 // May chance explain the difference between the two? Both variances count, so that what is improbably bright is spread
 // as well as blurred: pixels that share a test share their light, and the mean stays.
-bool may_be_equal(Centre centre, ivec2 pixel, vec3 value) {
-  if (!variance_bound || centre.shape.difference_limit <= 0.0) return true;
-  float difference = luminance(value) - luminance(centre.radiance.rgb);
+bool may_be_equal(Centre centre, ivec2 pixel, vec4 value) {
   float limit = centre.shape.difference_limit;
+  if (!variance_bound || limit <= 0.0) return true;
+  if (min(value.a, centre.radiance.a) < kHistoryOfOwn) limit = max(limit, kNeighbourhoodLimit);
+  float difference = luminance(value.rgb) - luminance(centre.radiance.rgb);
   return !(difference * difference > limit * limit * (centre.variance + texelFetch(variance, pixel, 0).x));
 }
 
@@ -117,7 +123,7 @@ void add_neighbour(Centre centre, ivec2 pixel, inout vec4 sum) {
   if (!(dot(offset, offset) <= cutoff * cutoff)) return;
   if (!(dot(texelFetch(surface_normal, pixel, 0).xyz, centre.normal) >= centre.shape.normal_threshold)) return;
   vec4 value = texelFetch(radiance, pixel, 0);
-  if (value.a <= 0.0 || !is_finite(value.rgb) || !may_be_equal(centre, pixel, value.rgb)) return;
+  if (value.a <= 0.0 || !is_finite(value.rgb) || !may_be_equal(centre, pixel, value)) return;
   sum += vec4(value.rgb, 1.0);
 }
 

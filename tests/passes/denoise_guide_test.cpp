@@ -117,6 +117,14 @@ TEST_F(DenoiseGuide, AStepStaysWhereChanceCannotExplainIt) {
   expect_same(step(2.1, R"(, "difference_limit": 2)").at("radiance"), sharp.at("pattern"));
 }
 
+TEST_F(DenoiseGuide, WithLittleHistoryTheLimitIsWide) {
+  // The bump is 1/128 high and its alpha is 1: kept apart beyond 5 standard errors of the difference, not beyond 3.
+  const FilterStage stage = {"denoise_radial", R"("axis": "tangent", "taps": 64, "variance_guide": 0, )" + reach_};
+  const double height = 1.0 / 128;
+  EXPECT_EQ(reach(bump(stage, height / std::sqrt(2.0) / 4.5)), 12);
+  EXPECT_EQ(reach(bump(stage, height / std::sqrt(2.0) / 5.5)), 0);
+}
+
 TEST_F(DenoiseGuide, WhatIsImprobablyBrightKeepsItsSum) {
   // One pixel in which chance found much light, and so much variance: spread, neither lost nor left alone.
   const Images images = run_filters(

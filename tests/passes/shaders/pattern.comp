@@ -14,8 +14,8 @@ uniform utexture2D surface_id;
 uniform writeonly image2D out_radiance;
 
 layout(push_constant) uniform Params {
-  uint pattern;   // 0 constant, 1 noise, 2 impulse, 3 normal, 4 object, 5 ramp, 6 frame, 7 spoilt, 8 bump, 9 step,
-                  // 10 texture
+  uint pattern;   // 0 constant, 1 noise, 2 impulse, 3 normal, 4 object, 5 ramp, 6 frame, 7 spoilt, 8 bump,
+                  // 9 step (alpha 10, as after ten frames), 10 texture
   float scale;
 };
 
@@ -42,5 +42,5 @@ void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, size))) return;
   bool background = texelFetch(surface_position, pixel, 0).w <= 0.0;
-  imageStore(out_radiance, pixel, vec4(scale * value(pixel, size), background ? 0.0 : 1.0));
+  imageStore(out_radiance, pixel, vec4(scale * value(pixel, size), background ? 0.0 : pattern == 9u ? 10.0 : 1.0));
 }
