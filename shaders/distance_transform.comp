@@ -2,6 +2,9 @@
 // it is exact up to the radius. It gathers, so nothing races and nothing needs an atomic.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+
+#include "lib/box.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -20,9 +23,9 @@ int previous_distance(ivec3 voxel) {
 }
 
 void main() {
-  ivec3 voxel = ivec3(gl_GlobalInvocationID);
+  ivec3 voxel = box_voxel();
+  if (past_box(voxel)) return;
   ivec3 extent = imageSize(out_distance);
-  if (any(greaterThanEqual(voxel, extent))) return;
   int nearest = previous_distance(voxel);
   // From the inside out: a step further than what is already found cannot improve it.
   for (int k = 1; k < nearest; ++k) {

@@ -1,6 +1,9 @@
 // Static and dynamic voxels to one grid. All three words come from the same side.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+
+#include "lib/box.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -18,8 +21,8 @@ layout(constant_id = 0) const int priority = 0;
 const int kPriorityDynamic = 0;
 
 void main() {
-  ivec3 voxel = ivec3(gl_GlobalInvocationID);
-  if (any(greaterThanEqual(voxel, imageSize(out_voxels_albedo)))) return;
+  ivec3 voxel = box_voxel();
+  if (past_box(voxel)) return;
   bool take_dynamic = priority == kPriorityDynamic ? texelFetch(dynamic_albedo, voxel, 0).a > 0.5
                                                  : texelFetch(static_albedo, voxel, 0).a <= 0.5;
   if (take_dynamic) {

@@ -1,5 +1,5 @@
-// First half of `voxelize`: every triangle claims the voxels it touches; the one that is last in draw order keeps a
-// voxel. One atomic maximum a voxel, no compare-and-swap loop, so the result does not depend on which thread is first.
+// Second part of `voxelize` with coverage `supercover`: every triangle claims the voxels it touches; the one that is
+// last in draw order keeps a voxel. One atomic maximum a voxel, no compare-and-swap loop, so the result does not depend on which thread is first.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -22,11 +22,7 @@ shared uint large_count;
 shared uint large_triangles[gl_WorkGroupSize.x];
 
 void claim(uint index, Triangle t, Corners in_grid, ivec3 voxel) {
-  if (alpha_masked(t.material)) {
-    vec3 barycentric = voxel_barycentric(in_grid, voxel);
-    TexturePoint point = voxel_texture_point(t, in_grid, barycentric);
-    if (cut_out(t.material, material_alpha(t.material, point, interpolate_color(t, barycentric)))) return;
-  }
+  if (alpha_masked(t.material) && cut_out_in_voxel(t, in_grid, voxel)) return;
   imageAtomicMax(owner, voxel, index + 1u);
 }
 
@@ -55,7 +51,11 @@ void main() {
     Triangle t = triangles[index];
     Corners in_grid = grid_corners(grid, t);
     Supercover cover = make_supercover(in_grid, grid.extent);
-    if (column_count(cover) > kColumnsAlone) {
+    // What has been scaled to nothing is a point and has no surface.
+    bool vanished = cover.normal == vec3(0.0);
+    if (vanished) {
+      // Touches voxels, claims none.
+    } else if (column_count(cover) > kColumnsAlone) {
       large_triangles[atomicAdd(large_count, 1u)] = index;
     } else if (slice == 0u) {
       claim_columns(index, t, in_grid, cover, 0u, 1u);

@@ -1,8 +1,9 @@
-// Second half of `voxelize`: every voxel is written from its one owner, so its three words belong together.
+// Last part of `voxelize`: every voxel is written from its one owner, so its three words belong together.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/basis.glsl"
+#include "lib/box.glsl"
 #include "lib/voxel_encoding.glsl"
 #include "lib/voxel_sample.glsl"
 
@@ -58,15 +59,14 @@ int next_claimed(ivec2 column, int z, int end) {
 // its lanes as soon as one takes it (on a CPU: always) would pay the full price for the empty ones; between the claimed
 // ones there is only the cheap search. The outputs were cleared before.
 void main() {
-  ivec3 extent = imageSize(out_voxels_albedo);
-  ivec2 column = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(column, extent.xy))) return;
-  Grid grid = scene_grid(extent);
-  int first = int(gl_GlobalInvocationID.z) * kVoxelsAlone;
-  int end = min(first + kVoxelsAlone, extent.z);
-  int z = next_claimed(column, first, end);
+  ivec3 last = box_high();
+  ivec3 first = box_low() + ivec3(gl_GlobalInvocationID) * ivec3(1, 1, kVoxelsAlone);
+  if (past_box(first)) return;
+  Grid grid = scene_grid(imageSize(out_voxels_albedo));
+  int end = min(first.z + kVoxelsAlone, last.z + 1);
+  int z = next_claimed(first.xy, first.z, end);
   do {
-    if (z < end) resolve(grid, ivec3(column, z));
-    z = next_claimed(column, z + 1, end);
+    if (z < end) resolve(grid, ivec3(first.xy, z));
+    z = next_claimed(first.xy, z + 1, end);
   } while (z < end);
 }

@@ -1,8 +1,6 @@
 #include "framework/gpu/device.hpp"
 
-#include <algorithm>
 #include <cstdlib>
-#include <cstring>
 
 #include "framework/base/error.hpp"
 #include "framework/gpu/device_selection.hpp"
@@ -17,16 +15,6 @@ std::string wanted_name(const DeviceOptions& options) {
   if (!options.name.empty()) return options.name;
   const char* environment = std::getenv("LIGHTLOOM_DEVICE");
   return environment != nullptr ? environment : "";
-}
-
-bool has_device_extension(VkPhysicalDevice device, const char* name) {
-  uint32_t count = 0;
-  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "vkEnumerateDeviceExtensionProperties");
-  std::vector<VkExtensionProperties> extensions(count);
-  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()),
-        "vkEnumerateDeviceExtensionProperties");
-  return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ struct DeviceInfo {
   std::array<uint8_t, VK_UUID_SIZE> uuid{};
   VkPhysicalDeviceLimits limits{};
   uint64_t max_allocation_bytes = 0;                   ///< of one allocation
+  bool has_memory_budget = false;                      ///< VK_EXT_memory_budget
   [[nodiscard]] std::string api_version_text() const;  ///< "1.3.230"
   [[nodiscard]] std::string uuid_text() const;         ///< hexadecimal, 32 digits
 };

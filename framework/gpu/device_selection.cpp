@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "framework/base/error.hpp"
+#include "framework/gpu/result.hpp"
 
 namespace lightloom::gpu {
 namespace {
@@ -74,6 +75,7 @@ DeviceInfo read_info(VkPhysicalDevice device) {
   info.driver_info = driver.driverInfo;
   info.max_allocation_bytes = identity.maxMemoryAllocationSize;
   std::copy(std::begin(identity.deviceUUID), std::end(identity.deviceUUID), info.uuid.begin());
+  info.has_memory_budget = has_device_extension(device, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   return info;
 }
 
@@ -162,6 +164,16 @@ DeviceSummary describe_device(VkPhysicalDevice device) {
   summary.missing = find_missing(device, summary.info);
   summary.usable = summary.missing.empty();
   return summary;
+}
+
+bool has_device_extension(VkPhysicalDevice device, const char* name) {
+  uint32_t count = 0;
+  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "vkEnumerateDeviceExtensionProperties");
+  std::vector<VkExtensionProperties> extensions(count);
+  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()),
+        "vkEnumerateDeviceExtensionProperties");
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
 }
 
 size_t choose_device(std::span<const DeviceSummary> devices, const std::string& wanted) {

@@ -10,6 +10,8 @@ namespace lightloom::gpu {
 
 [[nodiscard]] DeviceSummary describe_device(VkPhysicalDevice device);
 
+[[nodiscard]] bool has_device_extension(VkPhysicalDevice device, const char* name);
+
 /// Index into `devices` of the one that `wanted` names; see DeviceOptions::name, without the environment.
 /// Throws Error(no_device).
 [[nodiscard]] size_t choose_device(std::span<const DeviceSummary> devices, const std::string& wanted);

@@ -1,7 +1,9 @@
 #include "framework/gpu/memory.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <fstream>
 #include <optional>
 
 #include "framework/base/error.hpp"
@@ -41,7 +43,38 @@ uint32_t choose_type(const Device& device, const VkMemoryRequirements& requireme
   throw Error(ExitCode::run_failed, "device '" + device.info().name + "' has no kind of memory for " + owner);
 }
 
+/// MemAvailable of Linux [bytes]; nothing where it is not told.
+std::optional<uint64_t> free_host_bytes() {
+  std::ifstream file("/proc/meminfo");
+  std::string name;
+  uint64_t kibibytes = 0;
+  std::string unit;
+  while (file >> name >> kibibytes && std::getline(file, unit))
+    if (name == "MemAvailable:") return kibibytes * 1024;
+  return std::nullopt;
+}
+
 }  // namespace
+
+uint64_t available_bytes(const Device& device) {
+  if (device.info().type == DeviceType::cpu) {
+    if (const std::optional<uint64_t> bytes = free_host_bytes()) return *bytes;
+  }
+  VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{};
+  budget.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT;
+  VkPhysicalDeviceMemoryProperties2 memory{};
+  memory.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2;
+  if (device.info().has_memory_budget) memory.pNext = &budget;
+  vkGetPhysicalDeviceMemoryProperties2(device.physical(), &memory);
+  uint64_t most = 0;
+  for (uint32_t heap = 0; heap < memory.memoryProperties.memoryHeapCount; ++heap) {
+    const VkMemoryHeap& properties = memory.memoryProperties.memoryHeaps[heap];
+    if ((properties.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) == 0) continue;
+    const uint64_t used = std::min(budget.heapUsage[heap], budget.heapBudget[heap]);
+    most = std::max(most, device.info().has_memory_budget ? budget.heapBudget[heap] - used : properties.size);
+  }
+  return most;
+}
 
 std::string bytes_text(uint64_t bytes) {
   const std::string exact = std::to_string(bytes) + " bytes";

@@ -22,6 +22,11 @@ enum class MemoryKind : uint8_t {
                                            MemoryKind kind, const std::string& owner,
                                            const VkMemoryDedicatedAllocateInfo& dedicated);
 
+/// Memory that images of the device can still have [bytes]: what the driver's budget leaves (VK_EXT_memory_budget),
+/// else the largest heap of device memory. For a CPU device it is the host's free memory: a heap of lavapipe says 2 GiB
+/// whatever there is.
+[[nodiscard]] uint64_t available_bytes(const Device& device);
+
 [[nodiscard]] std::string bytes_text(uint64_t bytes);  ///< "12.0 MiB (12582912 bytes)"
 
 }  // namespace lightloom::gpu

@@ -75,8 +75,9 @@ class PassContext {
   [[nodiscard]] virtual bool kept(std::string_view port) const = 0;
   /// Does anything read an output: a pass, an output of the graph, an observer? What nobody wants need not be written.
   [[nodiscard]] virtual bool wanted(std::string_view output_port) const = 0;
-  /// Disjoint boxes of a grid of `grid` voxels around the scene that hold every voxel which dynamic triangles touch, in
-  /// this frame or in the one before. Empty where nothing moves within the grid.
+  /// Disjoint boxes of a grid of `grid` voxels around the scene, at most 16, that hold every voxel in which dynamic
+  /// triangles look different from the frame before: where what moves or deforms is, and where it was. Empty where
+  /// nothing moves within the grid.
   [[nodiscard]] virtual std::vector<VoxelBox> moved_boxes(const Extent3& grid) const = 0;
 
   /// Fills every part of an output or scratch port with one colour (unsigned formats: cast to unsigned).

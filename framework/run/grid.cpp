@@ -49,6 +49,19 @@ Grid make_grid(glm::vec3 bounds_min, glm::vec3 bounds_max, uint32_t resolution) 
   return grid;
 }
 
+Grid grid_around(glm::vec3 bounds_min, glm::vec3 bounds_max, const Extent3& extent) {
+  const glm::vec3 low = bounds_min;
+  const glm::vec3 high = glm::max(bounds_max, low);
+  const float magnitude = largest(glm::max(glm::abs(low), glm::abs(high)));
+  const float longest = std::max({largest(high - low), magnitude * kResolvable, kLeastLength});
+  const glm::vec3 voxels(extent.width, extent.height, extent.depth);
+  Grid grid;
+  grid.extent = extent;
+  grid.voxel = longest / std::max(largest(voxels) - 2.0f, 1.0f);
+  grid.origin = 0.5f * (low + high) - 0.5f * grid.voxel * voxels;
+  return grid;
+}
+
 Extent3 grid_extent(glm::vec3 bounds_min, glm::vec3 bounds_max, uint32_t resolution) {
   return make_grid(bounds_min, bounds_max, resolution).extent;
 }

@@ -21,6 +21,10 @@ struct Grid {
 /// shaders/lib/grid.glsl computes the same from the bounds and the extent.
 [[nodiscard]] Grid make_grid(glm::vec3 bounds_min, glm::vec3 bounds_max, uint32_t resolution);
 
+/// The grid of `extent` voxels, as make_grid chose it, around the same bounds [m]; the numbers are those of the
+/// shaders.
+[[nodiscard]] Grid grid_around(glm::vec3 bounds_min, glm::vec3 bounds_max, const Extent3& extent);
+
 [[nodiscard]] Extent3 grid_extent(glm::vec3 bounds_min, glm::vec3 bounds_max, uint32_t resolution);
 
 }  // namespace lightloom::run

@@ -6,6 +6,7 @@
 #include "framework/base/error.hpp"
 #include "framework/gpu/rendering.hpp"
 #include "framework/gpu/transfer.hpp"
+#include "framework/run/moved_boxes.hpp"
 #include "framework/run/pass_bindings.hpp"
 
 namespace lightloom::run {
@@ -68,9 +69,7 @@ bool PassRecorder::wanted(std::string_view output_port) const {
 }
 
 std::vector<VoxelBox> PassRecorder::moved_boxes(const Extent3& grid) const {
-  if (dynamic_triangles().count == 0) return {};
-  const auto last = [](uint32_t length) { return static_cast<int32_t>(length) - 1; };
-  return {{{0, 0, 0}, {last(grid.width), last(grid.height), last(grid.depth)}}};
+  return run::moved_boxes(environment_.scene->bounds, grid, environment_.scene->moved);
 }
 
 void PassRecorder::separate_commands() {

@@ -4,6 +4,7 @@
 
 #include "framework/gpu/descriptors.hpp"
 #include "framework/graph/pass_context.hpp"
+#include "framework/scene/scene.hpp"
 
 namespace lightloom::run {
 
@@ -13,6 +14,8 @@ struct SceneBindings {
   std::vector<ShaderValue> values;  ///< `has_<feature>`, and which textures there are (shaders/lib/features.glsl)
   TriangleRange static_triangles;
   TriangleRange dynamic_triangles;
+  scene::Bounds bounds;              ///< of the scene, over all frames [m]
+  std::vector<scene::Bounds> moved;  ///< MovingObjects::moved of this frame [m]
 };
 
 }  // namespace lightloom::run

@@ -130,6 +130,7 @@ SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene, S
     : scene_(scene),
       options_(std::move(options)),
       camera_(find_camera(scene, options_.camera)),
+      moving_(scene),
       emission_(scene::build_emission_table(scene)),
       emitters_(scene, emission_),
       samplers_(device),
@@ -200,6 +201,7 @@ void SceneResources::bind() {
   bindings_.values.insert(bindings_.values.end(), textures.begin(), textures.end());
   bindings_.static_triangles = range(0, scene_.static_triangle_count);
   bindings_.dynamic_triangles = range(scene_.static_triangle_count, scene_.triangles.size());
+  bindings_.bounds = scene_.bounds;
 }
 
 uint32_t SceneResources::fill_light_block(LightBlock& block, const scene::Pose& pose, uint32_t frame) {
@@ -226,6 +228,8 @@ uint32_t SceneResources::fill_light_block(LightBlock& block, const scene::Pose& 
 FrameConditions SceneResources::prepare(uint32_t frame) {
   const double time = frame / options_.frames_per_second;
   const scene::Pose pose = scene::pose(scene_, time);
+  moving_.update(pose.dynamic_vertices);
+  bindings_.moved = moving_.moved();
   const uint32_t history_length = std::min(static_cast<uint32_t>(views_.size()), kHistoryLimit - 1);
   scene::Camera camera = pose.cameras.at(camera_);
   if (options_.camera_path) camera = scene::camera_on_path(*options_.camera_path, time, camera);

@@ -9,6 +9,7 @@
 #include "framework/gpu/samplers.hpp"
 #include "framework/run/frame_result.hpp"
 #include "framework/run/frame_state.hpp"
+#include "framework/run/moved_boxes.hpp"
 #include "framework/run/scene_bindings.hpp"
 #include "framework/scene/camera_path.hpp"
 #include "framework/scene/lights.hpp"
@@ -54,6 +55,7 @@ class SceneResources {
   size_t camera_ = 0;
   std::deque<View> views_;    ///< newest first
   uint32_t newest_slot_ = 0;  ///< of past_positions_
+  MovingObjects moving_;
   scene::EmissionTable emission_;
   scene::EmitterSampler emitters_;
   std::vector<std::string> warnings_;

@@ -2,6 +2,7 @@
 
 #include "framework/gpu/format.hpp"
 #include "framework/gpu/transfer.hpp"
+#include "framework/run/device_room.hpp"
 
 namespace lightloom::run {
 namespace {
@@ -50,6 +51,7 @@ std::vector<VkImageUsageFlags> usages(const Graph& graph) {
 
 ValueImages::ValueImages(const gpu::Device& device, const Plan& plan) {
   const Graph& graph = plan.graph;
+  require_room(graph, room_of(device));
   const std::vector<VkImageUsageFlags> usage = usages(graph);
   for (size_t id = 0; id < graph.values.size(); ++id) {
     const Value& value = graph.values[id];

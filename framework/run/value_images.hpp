@@ -17,7 +17,7 @@ struct ValueLayer {
 /// it; a 3D ring is one image per layer, since volumes have no layers.
 class ValueImages {
  public:
-  /// Throws Error(run_failed) when a value is too large for the device, naming the value and the bytes.
+  /// Throws Error(run_failed) when the values are too large for the device (require_room), before it allocates any.
   ValueImages(const gpu::Device& device, const Plan& plan);
 
   /// The layer that holds `value` as it was `age` frames before frame number `count` (frames counted since the start).

@@ -73,11 +73,14 @@ bool column_touched(Supercover s, ivec2 where) {
   return square_touched(s.corners.a.xy, s.corners.b.xy, s.corners.c.xy, vec2(where) + 0.5, side, s.margin);
 }
 
+// Of the triangle's plane: change of z along x and along y, each at most 1 by the choice of the axis.
+vec2 plane_slope(Supercover s) { return -s.normal.xy * (sign(s.normal.z) / max(abs(s.normal.z), 1e-30)); }
+
 // First and last voxel of a column between which the triangle's plane passes through it.
 ivec2 column_span(Supercover s, ivec2 where) {
   float steepness = max(abs(s.normal.z), 1e-30);
   vec2 offset = vec2(where) + 0.5 - s.corners.a.xy;
-  float middle = s.corners.a.z - sign(s.normal.z) * dot(s.normal.xy, offset) / steepness;
+  float middle = s.corners.a.z + dot(plane_slope(s), offset);
   float reach = (0.5 + s.margin) * (abs(s.normal.x) + abs(s.normal.y)) / steepness + s.slack;
   return ivec2(clamp(ceil(middle - reach) - 1.0, float(s.low.z), float(s.high.z) + 1.0),
                clamp(floor(middle + reach), float(s.low.z) - 1.0, float(s.high.z)));

@@ -21,4 +21,11 @@ TexturePoint voxel_texture_point(Triangle t, Corners in_grid, vec3 barycentric) 
   return point;
 }
 
+// Is the voxel's point of an alpha-masked triangle cut out?
+bool cut_out_in_voxel(Triangle t, Corners in_grid, ivec3 voxel) {
+  vec3 barycentric = voxel_barycentric(in_grid, voxel);
+  TexturePoint point = voxel_texture_point(t, in_grid, barycentric);
+  return cut_out(t.material, material_alpha(t.material, point, interpolate_color(t, barycentric)));
+}
+
 #endif
