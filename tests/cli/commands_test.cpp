@@ -104,8 +104,8 @@ TEST_F(Commands, passes_as_json_hold_the_whole_tables) {
   }
   ASSERT_EQ(run({"passes", "voxelize", "--json"}), 0);
   const nlohmann::json voxelize = nlohmann::json::parse(out_)["passes"].at(0);
-  EXPECT_EQ(voxelize["params"][1]["name"], "resolution");
-  EXPECT_EQ(voxelize["params"][1]["minimum"], 8);
+  EXPECT_EQ(voxelize["params"][2]["name"], "resolution");
+  EXPECT_EQ(voxelize["params"][2]["minimum"], 8);
 }
 
 TEST_F(Commands, check_lists_every_problem_with_its_place_and_exits_with_3) {
@@ -157,6 +157,9 @@ TEST_F(Commands, plan_prints_what_runs_and_what_does_not) {
   EXPECT_EQ(run({"plan", kGraph, "--disable", "denoise_*", "--scene", kScene}), 0);
   EXPECT_NE(out_, whole);
   EXPECT_EQ(err_, "");
+  EXPECT_THAT(out_, AllOf(HasSubstr(", 1 of them once,"), HasSubstr("what it reads never changes: static geometry")));
+  EXPECT_EQ(run({"plan", kGraph, "--disable", "denoise_*", "--scene", kScene, "--no-hoist"}), 0);
+  EXPECT_THAT(out_, AllOf(HasSubstr(", 0 of them once,"), HasSubstr("voxelize_static")));
 }
 
 TEST_F(Commands, a_mistake_in_an_option_is_usage_and_one_in_the_graph_is_invalid_input) {

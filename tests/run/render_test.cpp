@@ -325,6 +325,10 @@ TEST_F(Render, TheRecordTellsWhatWasRun) {
     EXPECT_EQ(pass["frames_ms"].size(), 2u) << pass["pass"];
   }
   EXPECT_TRUE(traced);
+  ASSERT_EQ(record["hoisted"].size(), 1u);
+  EXPECT_EQ(record["hoisted"][0]["pass"], "voxelize_static");
+  EXPECT_EQ(record["hoisted"][0]["params"]["resolution"], 96);
+  EXPECT_NE(record["hoisted"][0]["reason"].get<std::string>().find("static geometry"), std::string::npos);
   for (const nlohmann::json& file : record["files"])
     EXPECT_TRUE(fs::is_regular_file(folder_ / "run" / file.get<std::string>())) << file;
 }
