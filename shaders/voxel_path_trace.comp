@@ -10,6 +10,7 @@
 #include "lib/features.glsl"
 #include "lib/lights.glsl"
 #include "lib/modulation.glsl"
+#include "lib/ray_start.glsl"
 #include "lib/voxel_encoding.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
