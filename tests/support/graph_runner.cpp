@@ -53,7 +53,8 @@ void add_quad(scene::Scene& target, const QuadSpec& quad) {
 
 }  // namespace
 
-std::vector<Images> run_graph(std::string_view graph_json, const scene::Scene& scene, const GraphRunOptions& options) {
+void visit_frames(std::string_view graph_json, const scene::Scene& scene, const GraphRunOptions& options,
+                  const FrameVisitor& visit) {
   PassRegistry registry;
   passes::register_builtin_passes(registry);
   for (const PassType& type : options.extra_types) registry.add(type);
@@ -63,14 +64,18 @@ std::vector<Images> run_graph(std::string_view graph_json, const scene::Scene& s
   shaders.sources.push_back(source_dir() / "tests/passes/shaders");
   run::Executor executor(shared_device(), compile_text(graph_json, registry, link_options, scene), scene,
                          {.shaders = shaders, .camera = options.camera, .seed = options.seed, .frames_per_second = 30});
-  std::vector<Images> frames;
   for (uint32_t frame = 0; frame < options.frames; ++frame) {
     run::FrameResult result = executor.run_frame(frame);
     Images images;
     for (run::NamedImage& output : result.outputs) images.insert_or_assign(output.name, std::move(output.image));
     for (run::NamedImage& capture : result.captures) images.insert_or_assign(capture.name, std::move(capture.image));
-    frames.push_back(std::move(images));
+    visit(frame, std::move(images));
   }
+}
+
+std::vector<Images> run_graph(std::string_view graph_json, const scene::Scene& scene, const GraphRunOptions& options) {
+  std::vector<Images> frames;
+  visit_frames(graph_json, scene, options, [&](uint32_t, Images images) { frames.push_back(std::move(images)); });
   return frames;
 }
 

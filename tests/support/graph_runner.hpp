@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -26,6 +27,14 @@ struct GraphRunOptions {
 
 /// Outputs by name and captures by "pass.port[.part]".
 using Images = std::map<std::string, image::HostImage>;
+
+/// Called with each frame's images.
+using FrameVisitor = std::function<void(uint32_t frame, Images images)>;
+
+/// Runs a graph on the test device (validation on) and shows every frame's images. Diagnostics are thrown as
+/// std::runtime_error with their text.
+void visit_frames(std::string_view graph_json, const scene::Scene& scene, const GraphRunOptions& options,
+                  const FrameVisitor& visit);
 
 /// Runs a graph on the test device (validation on) and returns every frame's images. Diagnostics are thrown as
 /// std::runtime_error with their text.
