@@ -18,6 +18,7 @@ void GraphOptions::add_to(Command& command) {
                      "Run every pass in every frame, those as well that give the same each time; the pictures are the "
                      "same"));
   group(command.option("--size", size, "View size in pixels, instead of the graph's"));
+  group(command.option("--trace-size", trace_size, "Size in pixels at which is traced, instead of the graph's"));
 }
 
 LinkOptions GraphOptions::link_options() const {
@@ -29,6 +30,7 @@ LinkOptions GraphOptions::link_options() const {
   for (const Assignment& swap : swaps) options.swaps.emplace_back(swap.name, swap.value);
   options.hoist = !no_hoist;
   if (size) options.view = {size->width, size->height};
+  if (trace_size) options.trace = {trace_size->width, trace_size->height};
   return options;
 }
 

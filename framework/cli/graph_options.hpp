@@ -17,6 +17,7 @@ struct GraphOptions {
   std::vector<Assignment> swaps;
   std::vector<std::string> dumps;
   std::optional<Size> size;
+  std::optional<Size> trace_size;
   bool no_hoist = false;
 
   void add_to(Command& command);

@@ -16,13 +16,14 @@ namespace lightloom {
 
 /// What the command line asks for. Applied in this order: each variant in turn (its swap, disable, set), then `swaps`,
 /// `disables`, `sets`. Problems are reported at file "--variant", "--swap", "--disable", "--set", "--dump", "--size",
-/// line 0.
+/// "--trace-size", line 0.
 struct LinkOptions {
   std::vector<std::string> variants;
   std::vector<std::pair<std::string, std::string>> swaps;  ///< pass glob, type
   std::vector<std::string> disables;                       ///< pass globs
   std::vector<std::pair<std::string, std::string>> sets;   ///< "PARAM" or "PASS.PARAM" (PASS a glob), value text
   std::optional<std::pair<uint32_t, uint32_t>> view;       ///< width, height [pixels]
+  std::optional<std::pair<uint32_t, uint32_t>> trace;      ///< the same of what is traced
   std::vector<std::string> captures;  ///< globs over "pass.port" and "pass.port.part"; "*" means every value
   bool hoist = true;                  ///< a pass whose result is the same in every frame runs in the first one alone
 };

@@ -4,25 +4,30 @@
 #include "framework/graph/link_state.hpp"
 
 namespace lightloom::linking {
+namespace {
+
+/// What an option asks for instead of the graph's own size.
+Extent3 wanted_size(const SizeSpec& own, const std::optional<std::pair<uint32_t, uint32_t>>& wanted, const char* option,
+                    Report& report) {
+  if (!wanted) return {own.width, own.height, 1};
+  const auto [width, height] = *wanted;
+  const auto valid = [](uint32_t length) { return length >= 1 && length <= kMaximumImageSize; };
+  if (valid(width) && valid(height)) return {width, height, 1};
+  report.error("out-of-range", {option, 0, 0},
+               "an image must be 1 to " + std::to_string(kMaximumImageSize) + " pixels wide and high, not " +
+                   std::to_string(width) + "x" + std::to_string(height));
+  return {own.width, own.height, 1};
+}
+
+}  // namespace
 
 ShapeResolver::ShapeResolver(const Nodes& nodes, EdgeResolver& edges, const Input& input, Report& report)
     : nodes_(nodes),
       edges_(edges),
       input_(input),
       report_(report),
-      view_{input.spec.view.width, input.spec.view.height, 1},
-      trace_{input.spec.trace.width, input.spec.trace.height, 1} {
-  if (!input.options.view) return;
-  const auto [width, height] = *input.options.view;
-  const auto valid = [](uint32_t length) { return length >= 1 && length <= kMaximumImageSize; };
-  if (valid(width) && valid(height)) {
-    view_ = {width, height, 1};
-  } else {
-    report.error("out-of-range", {"--size", 0, 0},
-                 "the view must be 1 to " + std::to_string(kMaximumImageSize) + " pixels wide and high, not " +
-                     std::to_string(width) + "x" + std::to_string(height));
-  }
-}
+      view_(wanted_size(input.spec.view, input.options.view, "--size", report)),
+      trace_(wanted_size(input.spec.trace, input.options.trace, "--trace-size", report)) {}
 
 std::optional<Extent3> ShapeResolver::extent_of(const ImageRef& image) {
   const auto same = [&](const Known& known) { return known.port == image.port && known.node == image.node; };

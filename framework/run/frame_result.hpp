@@ -25,6 +25,7 @@ struct FrameConditions {
   double time = 0;              ///< of the scene [s]
   uint32_t history_length = 0;  ///< earlier frames that the history rings held
   View view;
+  std::vector<glm::vec3> moving_positions;  ///< of the dynamic vertices, in their order [m]
 };
 
 /// All that one frame gives to the host.

@@ -45,10 +45,25 @@ Json key_json(const scene::CameraKey& key) {
   return result;
 }
 
-Json pass_record(const GraphPass& pass) {
+/// As an edge of a graph file: "pass.port.part", with "@k" or "@a..b" for earlier frames.
+std::string source_text(const Graph& graph, const Use& use) {
+  std::string text = value_name(graph.values[use.value]);
+  if (use.last_age > 0) text += "@" + std::to_string(use.first_age);
+  if (use.last_age > use.first_age) text += ".." + std::to_string(use.last_age);
+  return text;
+}
+
+Json pass_record(const Graph& graph, const GraphPass& pass) {
   Json params = Json::object();
   for (const ParamSet::Entry& entry : pass.params.entries()) params[entry.param->name] = to_json(entry.value);
-  return {{"pass", pass.name}, {"type", pass.type->name}, {"version", pass.type->version}, {"params", params}};
+  Json inputs = Json::object();
+  for (const Use& use : pass.inputs)
+    inputs[use.part.empty() ? use.port : use.port + "." + use.part] = source_text(graph, use);
+  return {{"pass", pass.name},
+          {"type", pass.type->name},
+          {"version", pass.type->version},
+          {"inputs", inputs},
+          {"params", params}};
 }
 
 }  // namespace
@@ -128,7 +143,7 @@ Json pass_records(const Plan& plan, const std::vector<std::vector<PassTime>>& fr
     std::vector<double> times;
     for (const std::vector<PassTime>& frame : frames) times.push_back(frame.at(step).milliseconds);
     const bool known = std::all_of(times.begin(), times.end(), [](double time) { return time >= 0; });
-    Json record = pass_record(plan.graph.passes[plan.steps[step].pass]);
+    Json record = pass_record(plan.graph, plan.graph.passes[plan.steps[step].pass]);
     record["median_ms"] = known ? Json(median(times)) : Json();
     record["frames_ms"] = known ? Json(times) : Json();
     records.push_back(std::move(record));
@@ -141,7 +156,7 @@ Json once_records(const Plan& plan, const std::vector<PassTime>& times) {
   for (size_t step = 0; step < plan.once.size(); ++step) {
     const GraphPass& pass = plan.graph.passes[plan.once[step].pass];
     const double time = times.at(step).milliseconds;
-    Json record = pass_record(pass);
+    Json record = pass_record(plan.graph, pass);
     record["reason"] = pass.once;
     record["ms"] = time >= 0 ? Json(time) : Json();
     records.push_back(std::move(record));

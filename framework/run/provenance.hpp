@@ -21,8 +21,8 @@ namespace lightloom::run {
 [[nodiscard]] nlohmann::ordered_json frame_record(const FrameResult& frame, uint32_t seed, const scene::Bounds& bounds);
 /// Name, hash of the plan, sizes, params, outputs, what was culled and bypassed, memory.
 [[nodiscard]] nlohmann::ordered_json graph_record(const Plan& plan);
-/// One entry a pass that every frame runs, in execution order: name, type, version, params, time of each frame and
-/// their median [ms]; times are null where the device has no timestamps.
+/// One entry a pass that every frame runs, in execution order: name, type, version, inputs, params, time of each frame
+/// and their median [ms]; times are null where the device has no timestamps.
 [[nodiscard]] nlohmann::ordered_json pass_records(const Plan& plan, const std::vector<std::vector<PassTime>>& frames);
 /// One entry a pass that the first frame alone runs, in execution order: the same, but why, and its one time [ms].
 [[nodiscard]] nlohmann::ordered_json once_records(const Plan& plan, const std::vector<PassTime>& times);

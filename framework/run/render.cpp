@@ -53,6 +53,7 @@ Json run_record(const RenderRequest& request, const Executor& executor, const sc
 Progress render_frames(const RenderRequest& request, const scene::Scene& scene, Executor& executor, RunFolder& folder,
                        const FrameCallback& on_frame) {
   Progress progress;
+  if (!executor.plan().graph.captures.empty()) folder.write_moving_triangles(scene);
   const uint32_t total = request.last_frame - request.first_frame + 1;
   for (uint32_t done = 0; done < total; ++done) {
     const Clock::time_point start = Clock::now();

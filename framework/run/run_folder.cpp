@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -78,6 +79,13 @@ nlohmann::ordered_json describe(const Graph& graph, const Value& value) {
           {"scratch", value.scratch}};
 }
 
+/// Rows of `width` numbers as an image of one channel, for NumPy.
+image::HostImage table(Format format, uint32_t width, std::span<const std::byte> numbers) {
+  const auto rows = static_cast<uint32_t>(numbers.size() / (width * 4));
+  return {.desc = {format, Dimension::d2, {width, rows, 1}},
+          .texels = std::vector<std::byte>(numbers.begin(), numbers.end())};
+}
+
 /// A relative path that stays inside its folder.
 bool stays_inside(const fs::path& relative) {
   return relative.is_relative() && std::find(relative.begin(), relative.end(), "..") == relative.end();
@@ -135,6 +143,16 @@ void RunFolder::write_json(const fs::path& relative, const nlohmann::ordered_jso
   files_.push_back(relative);
 }
 
+void RunFolder::write_moving_triangles(const scene::Scene& scene) {
+  const std::span<const scene::Triangle> moving = std::span(scene.triangles).subspan(scene.static_triangle_count);
+  if (moving.empty()) return;
+  const fs::path file = fs::path("dumps") / "moving_triangles.npy";
+  write_image(file, table(Format::r32_uint, 5, std::as_bytes(moving)), {});
+  moving_ = {{"triangles", file.generic_string()},
+             {"first_triangle", scene.static_triangle_count},
+             {"first_vertex", scene.static_vertex_count}};
+}
+
 void RunFolder::write_frame(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions) {
   for (const NamedImage& output : result.outputs) {
     const ImageDesc& desc = output.image.desc;
@@ -157,12 +175,19 @@ void RunFolder::write_dumps(const Graph& graph, const FrameResult& result, const
     if (!dumped_values_.contains(capture.name)) dumped_values_[capture.name] = describe(graph, value);
   }
   write_json(frame / "frame.json", conditions);
-  dumped_frames_.push_back({{"frame", result.frame}, {"conditions", files_.back().generic_string()}, {"files", files}});
+  nlohmann::ordered_json entry = {
+      {"frame", result.frame}, {"conditions", files_.back().generic_string()}, {"files", files}};
+  if (const std::vector<glm::vec3>& positions = result.conditions.moving_positions; !positions.empty()) {
+    write_image(frame / "moving_positions.npy", table(Format::r32_sfloat, 3, std::as_bytes(std::span(positions))), {});
+    entry["moving_positions"] = files_.back().generic_string();
+  }
+  dumped_frames_.push_back(std::move(entry));
 }
 
 void RunFolder::finish(nlohmann::ordered_json record) {
   if (!dumped_frames_.empty())
-    write_json(fs::path("dumps") / "index.json", {{"values", dumped_values_}, {"frames", dumped_frames_}});
+    write_json(fs::path("dumps") / "index.json",
+               {{"values", dumped_values_}, {"moving", moving_}, {"frames", dumped_frames_}});
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const fs::path& file : files_) files.push_back(file.generic_string());
   record["files"] = files;

@@ -7,6 +7,7 @@
 
 #include "framework/graph/graph.hpp"
 #include "framework/run/frame_result.hpp"
+#include "framework/scene/scene.hpp"
 
 namespace lightloom::run {
 
@@ -26,6 +27,10 @@ class RunFolder {
   /// Throws Error(run_failed) where the folder cannot be made or written.
   explicit RunFolder(std::filesystem::path folder, DumpFormat dump_format = DumpFormat::exr);
 
+  /// Writes the triangles that move (scene::Scene says which) to dumps/moving_triangles.npy: shape (n, 5, 1), corners
+  /// a, b, c as indices into the scene's vertices, material, object. Each frame's positions of their vertices go to
+  /// dumps/FFFF/moving_positions.npy, shape (n, 3, 1) [m]. Only of use with captures.
+  void write_moving_triangles(const scene::Scene& scene);
   /// Writes the outputs, and, if the frame has captures, these with `conditions` as frame.json beside them.
   void write_frame(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions);
   /// Writes the index of the dumps and `record` as run.json, with the list of files added.
@@ -46,6 +51,7 @@ class RunFolder {
   std::vector<std::filesystem::path> files_;
   DumpFormat dump_format_;
   nlohmann::ordered_json dumped_values_ = nlohmann::ordered_json::object();  ///< by name
+  nlohmann::ordered_json moving_;                                            ///< null where nothing moves
   nlohmann::ordered_json dumped_frames_ = nlohmann::ordered_json::array();
 };
 

@@ -249,7 +249,10 @@ FrameConditions SceneResources::prepare(uint32_t frame) {
   std::memcpy(staging.data(), &block, sizeof block);
   std::memcpy(staging.data() + kLightOffset, &lights, sizeof lights);
   stage_geometry(pose.dynamic_vertices);
-  return {.time = time, .history_length = history_length, .view = views_.front()};
+  FrameConditions conditions{
+      .time = time, .history_length = history_length, .view = views_.front(), .moving_positions = {}};
+  for (const scene::Vertex& vertex : pose.dynamic_vertices) conditions.moving_positions.push_back(vertex.position);
+  return conditions;
 }
 
 void SceneResources::stage_geometry(const std::vector<scene::Vertex>& moving) {

@@ -157,6 +157,11 @@ TEST(Options, MistakesAreErrorsAtTheOption) {
          o.view = {0, 16385};
        },
        "out-of-range", "--size", ""},
+      {"trace size",
+       [](LinkOptions& o) {
+         o.trace = {16385, 1};
+       },
+       "out-of-range", "--trace-size", ""},
   };
   const std::string text = file(
       R"("s": {"type": "source", "params": {"level": "$level"}}, "filter": {"type": "filter", "in": {"x": "s.a"}})",

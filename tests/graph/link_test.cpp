@@ -68,6 +68,9 @@ TEST(Link, ShapesFollowTheirRules) {
   EXPECT_EQ(extent("t.a"), "32x24");
   EXPECT_EQ(extent("f.a"), "32x24");
   EXPECT_EQ(extent("v.v"), "7x4x7");
+  EXPECT_EQ(graph.trace.width, 32u);
+  options.trace = {30, 40};
+  EXPECT_EQ(graph_of(file(kSource, R"("p": "s.a")"), options).trace.height, 40u);
   EXPECT_EQ(extent("c.v"), "7x4x7");
   EXPECT_EQ(to_string(graph.view), "10x20");
 }
