@@ -62,7 +62,7 @@ PassType make_emissive_faces() {
       "device "
       "does first: columns are counted, one work group scans the counts, columns are written.";
   type.ports = ports();
-  type.reads = FrameState::lights;
+  type.reads = FrameState::materials;
   type.record = record;
   return type;
 }

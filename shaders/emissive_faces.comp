@@ -37,6 +37,7 @@ void main() {
   if (any(greaterThanEqual(column, size.xy))) return;
   // Counting: faces and weight of this column; writing: of all columns before it.
   uvec2 sum = writing ? imageLoad(columns, column).rg : uvec2(0u);
+  if (writing && sum.x == kNoFaces) return;
   uint power_emission = 0u;
   float power = 0.0;
   for (int z = 0; has_emissive && z < size.z; ++z) {

@@ -31,7 +31,7 @@ void main() {
   for (uint c = first; c < end; ++c) {
     ivec2 column = ivec2(int(c) % size.x, int(c) / size.x);
     uvec2 own = imageLoad(columns, column).rg;
-    imageStore(columns, column, uvec4(before, 0u, 0u));
+    imageStore(columns, column, uvec4(own.x > 0u ? before.x : kNoFaces, before.y, 0u, 0u));
     before += own;
   }
   // With more faces than fit, the weight of those that do is only known where the last of them is written.

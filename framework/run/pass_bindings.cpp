@@ -35,7 +35,7 @@ constexpr std::array kBindings = {
     DeclaredRead{"PastPositionBlock", FrameState::dynamic_geometry},
     DeclaredRead{"MaterialBlock", FrameState::materials},
     DeclaredRead{"texture_pages", FrameState::materials},
-    DeclaredRead{"LightBlock", FrameState::lights},
+    DeclaredRead{"LightBlock", FrameState::lights | FrameState::materials},
     DeclaredRead{"environment_map", FrameState::lights},
     DeclaredRead{"environment_table", FrameState::lights},
 };
@@ -47,6 +47,14 @@ constexpr std::array kFrameMembers = {
     DeclaredRead{"motion", FrameState::dynamic_geometry},
     // Which frame it is, the seed, and how many frames the histories hold, which goes with the cameras of the past.
     DeclaredRead{"ids", FrameState::time | FrameState::seed | FrameState::camera},
+};
+
+/// What materials emit stays; where the emitters and other lights are need not.
+constexpr std::array kLightMembers = {
+    DeclaredRead{"emissions", FrameState::lights | FrameState::materials},
+    DeclaredRead{"emitters", FrameState::lights},
+    DeclaredRead{"hints", FrameState::lights},
+    DeclaredRead{"punctual", FrameState::lights},
 };
 
 template <size_t N>
@@ -113,10 +121,12 @@ void require_declared_read(const GraphPass& pass, const gpu::Binding& binding, s
   std::string undeclared;
   if (!declared(kBindings, binding.name, reads)) undeclared = binding.name;
   // A member may stand in a branch that these params do not take; the block is bound in any case.
-  if (binding.name == "FrameBlock")
-    for (const gpu::BlockMember& member : binding.members)
-      if (member.used && !declared(kFrameMembers, member.name, pass.type->reads))
-        undeclared = "FrameBlock." + member.name;
+  for (const gpu::BlockMember& member : binding.members) {
+    const bool allowed = binding.name == "FrameBlock"   ? declared(kFrameMembers, member.name, pass.type->reads)
+                         : binding.name == "LightBlock" ? declared(kLightMembers, member.name, pass.type->reads)
+                                                        : true;
+    if (member.used && !allowed) undeclared = binding.name + "." + member.name;
+  }
   if (undeclared.empty()) return;
   throw Error(ExitCode::run_failed,
               "pass '" + pass.name + "' (" + pass.type->name + "): shader '" + std::string(shader) + "' reads '" +

@@ -27,8 +27,8 @@ namespace lightloom::run {
                                                              const std::vector<ShaderValue>& values);
 
 /// Throws Error(run_failed) where a shader reads a scene binding that its pass type does not declare to read with the
-/// pass's params, or names a member of the frame block that the type does not declare to read at all: what a pass reads
-/// decides when it must run again, so it may not read in silence.
+/// pass's params, or names a member of the frame or light block that the type does not declare to read at all: what a
+/// pass reads decides when it must run again, so it may not read in silence.
 void require_declared_read(const GraphPass& pass, const gpu::Binding& binding, std::string_view shader);
 
 /// Whether `binding` is the shader name of an optional input of the pass that is not connected.

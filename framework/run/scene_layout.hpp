@@ -34,6 +34,10 @@ struct EmissionEntry {
   glm::vec4 sides;
 };
 
+struct EmitterEntry {
+  glm::vec4 surface;
+};
+
 struct HintEntry {
   glm::vec4 position;
   glm::vec4 normal;
@@ -48,6 +52,7 @@ struct PunctualEntry {
 
 struct LightBlock {
   EmissionEntry emissions[kEmissionLimit];
+  EmitterEntry emitters[kEmissionLimit];
   HintEntry hints[kHintLimit];
   PunctualEntry punctual[kPunctualLimit];
 };

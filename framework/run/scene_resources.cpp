@@ -211,10 +211,10 @@ uint32_t SceneResources::fill_light_block(LightBlock& block, const scene::Pose& 
     brightest = std::max(brightest, scene::luminance(emission.radiance));
   for (uint32_t entry = 0; entry < emission_.entries.size(); ++entry) {
     const scene::EmissionEntry& emission = emission_.entries[entry];
-    block.emissions[entry] = {
-        .radiance = glm::vec4(emission.radiance, emitters_.area_density(entry)),
-        .sides = glm::vec4(emission.two_sided ? 1 : 0, emitters_.emitting_area(entry),
-                           brightest > 0 ? scene::luminance(emission.radiance) / brightest : 0, 0)};
+    const float relative = brightest > 0 ? scene::luminance(emission.radiance) / brightest : 0;
+    block.emissions[entry] = {.radiance = glm::vec4(emission.radiance, relative),
+                              .sides = glm::vec4(emission.two_sided ? 1 : 0, 0, 0, 0)};
+    block.emitters[entry] = {.surface = glm::vec4(emitters_.area_density(entry), emitters_.emitting_area(entry), 0, 0)};
   }
   const std::vector<scene::Hint> hints = emitters_.draw_hints(scene_, options_.seed, frame, kHintLimit);
   for (size_t index = 0; index < hints.size(); ++index)

@@ -15,6 +15,9 @@ const uint kFaceWeightLimit = 4095u;
 // Sums of face_emittance are in whole numbers of 1/512, which hold 8 million faces.
 const float kFacePowerUnit = 512.0;
 
+// In place of a column's first face.
+const uint kNoFaces = 0xFFFFFFFFu;
+
 ivec2 face_texel(uint index) { return ivec2(int(index) % kFaceRow, int(index) / kFaceRow); }
 
 // Faces 0 to 5: -x, +x, -y, +y, -z, +z.
@@ -47,7 +50,7 @@ float face_emittance(uint emission, vec3 voxel_normal, uint face) {
 // Weight with which a face is drawn, in proportion to the luminance of its power; whole numbers, so that sums do not
 // depend on their order. 0: never.
 uint face_weight(uint emission, vec3 voxel_normal, uint face) {
-  precise float share = face_emittance(emission, voxel_normal, face) * lights.emissions[emission].sides.z;
+  precise float share = face_emittance(emission, voxel_normal, face) * lights.emissions[emission].radiance.w;
   if (!(share > 0.0) || face_emittance(emission, voxel_normal, face) < 1e-3) return 0u;
   return clamp(uint(share * float(kFaceWeightLimit) + 0.5), 1u, kFaceWeightLimit);
 }

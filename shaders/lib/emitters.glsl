@@ -29,7 +29,7 @@ vec3 voxel_radiance(Grid grid, uint emission) {
   vec3 radiance = lights.emissions[emission].radiance.rgb;
   if (emitter_area == kEmitterVoxels) return radiance;
   float in_voxels = float(texelFetch(power, ivec2(emission, 0), 0).r) / kFacePowerUnit;
-  float surface_area = lights.emissions[emission].sides.y * (1.0 + lights.emissions[emission].sides.x);
+  float surface_area = lights.emitters[emission].surface.y * (1.0 + lights.emissions[emission].sides.x);
   float in_surface = surface_area / (grid.voxel_size * grid.voxel_size);
   return radiance * (in_voxels > 0.0 ? min(in_surface / in_voxels, 4.0) : 1.0);
 }

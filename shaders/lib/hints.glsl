@@ -14,7 +14,7 @@
 
 // Density with which a hint is drawn at a point of an emissive surface, per solid angle from `distance_squared` away.
 float hint_pdf(uint emission, float distance_squared, float cosine) {
-  return lights.emissions[emission].radiance.w * distance_squared / max(cosine, 1e-6);
+  return lights.emitters[emission].surface.x * distance_squared / max(cosine, 1e-6);
 }
 
 // Light of one hint, picked uniformly by `u`.

@@ -70,10 +70,12 @@ struct Material {
 };
 layout(std430) readonly buffer MaterialBlock { Material materials[]; };
 
-struct Emission {
-  vec4 radiance;           // rgb [W m^-2 sr^-1]; w: density of the hints drawn on such a surface [m^-2]
-  vec4 sides;              // x: 1 if both sides emit, else 0; y: area of the triangles that emit, one side of it [m^2];
-                           // z: luminance over that of the brightest entry
+struct Emission {          // the same in every frame
+  vec4 radiance;           // rgb [W m^-2 sr^-1]; w: luminance over that of the brightest entry
+  vec4 sides;              // x: 1 if both sides emit, else 0
+};
+struct Emitter {           // the triangles of an entry of the emission table
+  vec4 surface;            // x: density of the hints drawn on it [m^-2]; y: area that emits, one side of it [m^2]
 };
 struct Hint {
   vec4 position;           // xyz [m]; w: index into the emission table
@@ -90,6 +92,7 @@ struct PunctualLight {
 };
 layout(std140) uniform LightBlock {
   Emission emissions[kEmissionLimit];
+  Emitter emitters[kEmissionLimit];
   Hint hints[kHintLimit];
   PunctualLight punctual[kPunctualLimit];
 } lights;

@@ -34,7 +34,7 @@ layout(local_size_x = 1) in;
 layout(std430) writeonly buffer ResultBlock { float result; };
 void main() {
   result = frame.counts.x + vertices[0].v1 + triangles[0].object + materials[0].flags.w +
-           lights.emissions[1].sides.x + lights.hints[1].normal.x + lights.punctual[1].cone.x + past_positions[1].x;
+           lights.emissions[1].sides.x + lights.emitters[1].surface.x + lights.hints[1].normal.x + lights.punctual[1].cone.x + past_positions[1].x;
 })";
     const gpu::ShaderSource source{"user.comp", kUser, gpu::Stage::compute};
     gpu::ShaderCompiler compiler({.include_directories = default_shader_folders().sources, .cache_directory = {}});
@@ -73,6 +73,8 @@ TEST_F(SceneLayout, LightBlock) {
   const auto found = offsets("LightBlock");
   EXPECT_EQ(found.at("emissions"), offsetof(LightBlock, emissions));
   EXPECT_EQ(found.at("emissions[]"), sizeof(EmissionEntry));
+  EXPECT_EQ(found.at("emitters"), offsetof(LightBlock, emitters));
+  EXPECT_EQ(found.at("emitters[]"), sizeof(EmitterEntry));
   EXPECT_EQ(found.at("hints"), offsetof(LightBlock, hints));
   EXPECT_EQ(found.at("hints[]"), sizeof(HintEntry));
   EXPECT_EQ(found.at("punctual"), offsetof(LightBlock, punctual));
