@@ -256,6 +256,23 @@ TEST_F(ViewSurface, EveryObjectAndMaterialHasAColourOfItsOwn) {
   }
 }
 
+TEST_F(ViewSurface, ShowsMotionByItsPixels) {
+  GraphRunOptions options;
+  options.extra_types = {make_pattern()};
+  const Images images = run_passes(R"("g": { "type": "gather" },
+    "m": { "type": "pattern", "in": { "surface": "g.surface" }, "params": { "pattern": "ramp" } },
+    "view": { "type": "view_surface", "in": { "surface": "g.surface", "motion": "m.radiance" },
+              "params": { "show": "motion" } })",
+                                   "view.image", boxes(), options);
+  for (uint32_t y = 0; y < kHeight; ++y)
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      if (images.at("g.surface.position").at(x, y, 0, 3) <= 0) continue;
+      const double right = x / 16.0, down = y / 16.0;
+      ASSERT_NEAR(images.at("output").at(x, y, 0, 0), 0.5 + 0.5 * right / (right + 8), kByte);
+      ASSERT_NEAR(images.at("output").at(x, y, 0, 1), 0.5 + 0.5 * down / (down + 8), kByte);
+    }
+}
+
 TEST_F(ViewSurface, MotionWithoutItsInputIsAClearError) {
   try {
     (void)view("motion");
