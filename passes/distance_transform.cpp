@@ -6,8 +6,6 @@
 namespace lightloom::passes {
 namespace {
 
-constexpr float kDistanceOne = 1.0f / 255.0f;
-
 Port volume(const std::string& name, Direction direction, Access access, const std::string& doc) {
   Port port = image_output_like(name, Format::r8_unorm, "voxels", doc);
   port.direction = direction;
@@ -44,10 +42,9 @@ PassType make_distance_transform() {
       "Chessboard distance to the nearest occupied voxel, exact up to `radius` (the paper's partial distance "
       "transform, section 2.1). Separable: along each axis d' = min over k of max(|k|, d); 0 in an occupied voxel, "
       "radius + 1 where none lies within the radius. Outside the grid is empty. Rewritten only up to the "
-      "radius around what moved. Bypassed, every voxel says 1, so "
-      "that a march takes unit steps.";
+      "radius around what moved. It says where the voxels are, so it cannot be spared; `march` dda does without "
+      "its lengths.";
   Port distance = volume("distance", Direction::out, Access::compute_storage_write, "distance [voxels / 255]");
-  distance.bypass = Bypass{"", {kDistanceOne, kDistanceOne, kDistanceOne, kDistanceOne}};
   type.ports = {voxels_input("voxels", "alpha of the albedo image is the occupancy"), distance,
                 scratch_volume("along_x", "distance within the row [voxels / 255]"),
                 scratch_volume("along_xy", "distance within the slice [voxels / 255]")};
