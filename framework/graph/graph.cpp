@@ -20,4 +20,18 @@ bool is_read(const Graph& graph, ValueId value) {
                      [&](const GraphPass& pass) { return std::any_of(pass.inputs.begin(), pass.inputs.end(), reads); });
 }
 
+bool looks_back(const Graph& graph, const GraphPass& pass) {
+  const auto writes = [](const GraphPass& candidate, ValueId value) {
+    return std::any_of(candidate.outputs.begin(), candidate.outputs.end(),
+                       [&](const Use& use) { return use.value == value; });
+  };
+  return std::any_of(pass.inputs.begin(), pass.inputs.end(), [&](const Use& use) {
+    if (use.last_age > 0) return true;
+    // Edges within a frame have no cycles.
+    return std::any_of(graph.passes.begin(), graph.passes.end(), [&](const GraphPass& producer) {
+      return writes(producer, use.value) && looks_back(graph, producer);
+    });
+  });
+}
+
 }  // namespace lightloom

@@ -74,6 +74,8 @@ struct PassRemark {
 struct Graph;
 /// Does a pass, an output of the graph or a capture read the value?
 [[nodiscard]] bool is_read(const Graph& graph, ValueId value);
+/// Does the pass, or one that it depends on within the frame, read a value of an earlier frame?
+[[nodiscard]] bool looks_back(const Graph& graph, const GraphPass& pass);
 
 /// A linked and typed graph: plain data, swaps and bypasses applied, what nothing needs left out.
 struct Graph {

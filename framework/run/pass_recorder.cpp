@@ -6,6 +6,7 @@
 #include "framework/base/error.hpp"
 #include "framework/gpu/rendering.hpp"
 #include "framework/gpu/transfer.hpp"
+#include "framework/graph/voxel_box.hpp"
 #include "framework/run/moved_boxes.hpp"
 #include "framework/run/pass_bindings.hpp"
 
@@ -69,6 +70,8 @@ bool PassRecorder::wanted(std::string_view output_port) const {
 }
 
 std::vector<VoxelBox> PassRecorder::moved_boxes(const Extent3& grid) const {
+  // What an older value differs in is where things moved in earlier frames, which nobody keeps.
+  if (dynamic_triangles().count > 0 && looks_back(graph_, pass_)) return {whole_grid(grid)};
   return run::moved_boxes(environment_.scene->bounds, grid, environment_.scene->moved);
 }
 

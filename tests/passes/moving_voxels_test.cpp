@@ -1,9 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <random>
+#include <filesystem>
 
 #include "tests/passes/moving_support.hpp"
 #include "tests/support/device_fixture.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom::test {
 namespace {
@@ -47,6 +48,17 @@ scene::Scene moving_scene() {
         })}});
 }
 
+/// A graph of 16 x 16 pixels with the given passes; all values of all frames.
+std::vector<Images> run_voxel_graph(const std::string& passes, const std::string& output, const scene::Scene& scene) {
+  GraphRunOptions options;
+  options.frames = kFrames;
+  options.capture = {"*"};
+  return run_graph(R"({ "lightloom": 1, "name": "test", "view": { "width": 16, "height": 16 },
+           "trace": { "width": 16, "height": 16 }, "passes": { )" +
+                       passes + R"( }, "outputs": { "output": ")" + output + "\" } }",
+                   scene, options);
+}
+
 /// The chain as the graphs have it, and beside it the same without its memory, and everything voxelized at once.
 std::vector<Images> run_chains(const std::string& coverage, const std::string& priority) {
   const auto voxelize = [&](const std::string& name, const std::string& geometry, const std::string& update) {
@@ -59,16 +71,10 @@ std::vector<Images> run_chains(const std::string& coverage, const std::string& p
            suffix + R"(": { "type": "distance_transform", "in": { "voxels": "m)" + suffix +
            R"(.voxels" }, "params": { "radius": )" + std::to_string(kRadius) + R"(, "update": ")" + update + "\" } }";
   };
-  const std::string text =
-      R"({ "lightloom": 1, "name": "test", "view": { "width": 16, "height": 16 },
-           "trace": { "width": 16, "height": 16 }, "passes": { )" +
-      voxelize("s", "static", "moved") + voxelize("d", "dynamic", "moved") + voxelize("d_fresh", "dynamic", "all") +
-      voxelize("a", "all", "moved") + voxelize("a_fresh", "all", "all") + rest("", "moved") + ",\n" +
-      rest("_fresh", "all") + R"( }, "outputs": { "output": "t.distance" } })";
-  GraphRunOptions options;
-  options.frames = kFrames;
-  options.capture = {"*"};
-  return run_graph(text, moving_scene(), options);
+  return run_voxel_graph(voxelize("s", "static", "moved") + voxelize("d", "dynamic", "moved") +
+                             voxelize("d_fresh", "dynamic", "all") + voxelize("a", "all", "moved") +
+                             voxelize("a_fresh", "all", "all") + rest("", "moved") + ",\n" + rest("_fresh", "all"),
+                         "t.distance", moving_scene());
 }
 
 void expect_same(const Images& images, const std::string& got, const std::string& expected) {
@@ -140,6 +146,48 @@ TEST_F(MovingVoxelsTest, DistancesOfEveryFrameAreThoseOfBruteForce) {
     for_each_voxel(distance, [&](const glm::ivec3& voxel) {
       ASSERT_EQ(byte_at(distance, voxel, 0), expected[index(voxel)]) << voxel.x << ' ' << voxel.y << ' ' << voxel.z;
     });
+  }
+}
+
+TEST_F(MovingVoxelsTest, VoxelsOfTheFrameBeforeAreFollowedToo) {
+  const std::string passes = R"(
+      "s": { "type": "voxelize", "params": { "resolution": 40, "geometry": "static" } },
+      "d": { "type": "voxelize", "params": { "resolution": 40, "geometry": "dynamic" } },
+      "m": { "type": "voxel_merge", "in": { "static": "s.voxels", "dynamic": "d.voxels@1" } },
+      "t": { "type": "distance_transform", "in": { "voxels": "m.voxels" } },
+      "m_fresh": { "type": "voxel_merge", "in": { "static": "s.voxels", "dynamic": "d.voxels@1" },
+                   "params": { "update": "all" } },
+      "t_fresh": { "type": "distance_transform", "in": { "voxels": "m_fresh.voxels" }, "params": { "update": "all" } })";
+  const std::vector<Images> frames = run_voxel_graph(passes, "t.distance", moving_scene());
+  for (size_t frame = 0; frame < frames.size(); ++frame) {
+    SCOPED_TRACE(frame);
+    expect_same_voxels(frames[frame], "m", "m_fresh");
+    expect_same(frames[frame], "t.distance", "t_fresh.distance");
+  }
+}
+
+/// Skinned, morphed and rigid objects of glTF files.
+TEST_F(MovingVoxelsTest, SkinsMorphsAndNodesLeaveNoTrail) {
+  const std::filesystem::path folder = source_dir() / "../shared/scenes/khronos";
+  for (const char* file :
+       {"Fox/glTF/Fox.gltf", "AnimatedMorphCube/glTF/AnimatedMorphCube.gltf", "BoxAnimated/glTF/BoxAnimated.gltf"}) {
+    SCOPED_TRACE(file);
+    if (!std::filesystem::exists(folder / file)) GTEST_SKIP() << "there is no " << folder / file;
+    const scene::Scene scene = scene::load_scene(folder / file);
+    const std::string passes = R"(
+        "s": { "type": "voxelize", "params": { "resolution": 48, "geometry": "static" } },
+        "d": { "type": "voxelize", "params": { "resolution": 48, "geometry": "dynamic" } },
+        "m": { "type": "voxel_merge", "in": { "static": "s.voxels", "dynamic": "d.voxels" } },
+        "a_fresh": { "type": "voxelize", "params": { "resolution": 48, "update": "all" } },
+        "t": { "type": "distance_transform", "in": { "voxels": "m.voxels" } },
+        "t_fresh": { "type": "distance_transform", "in": { "voxels": "a_fresh.voxels" }, "params": { "update": "all" } })";
+    const std::vector<Images> frames = run_voxel_graph(passes, "t.distance", scene);
+    EXPECT_GT(count_occupied(frames.front().at("d.voxels.albedo")), 100u);
+    EXPECT_FALSE(frames.front().at("d.voxels.albedo").texels == frames.back().at("d.voxels.albedo").texels);
+    for (const Images& images : frames) {
+      expect_same_voxels(images, "m", "a_fresh");
+      expect_same(images, "t.distance", "t_fresh.distance");
+    }
   }
 }
 

@@ -157,6 +157,34 @@ TEST_F(VoxelizeRasterTest, EveryRunGivesTheSameBits) {
   }
 }
 
+TEST_F(VoxelizeRasterTest, CoarsestAndFinestGridsOfBothCoverages) {
+  // A long thin box, so that the finest grid is small.
+  std::vector<WorldTriangle> triangles = cube_triangles(1, glm::mat3(1));
+  for (WorldTriangle& triangle : triangles)
+    for (glm::vec3& corner : triangle) corner *= glm::vec3(100, 1, 2);
+  const scene::Scene scene = colored_scene(triangles);
+  EXPECT_GT(expect_sampled_owners(triangles, 512), 500u);
+  for (const int resolution : {8, 512}) {
+    const Images cover = voxelize(scene, resolution);
+    const Images raster = rasterize(scene, resolution);
+    const image::HostImage& albedo = cover.at("v.voxels.albedo");
+    ASSERT_EQ(albedo.desc.extent.width, static_cast<uint32_t>(resolution));
+    ASSERT_LT(albedo.desc.extent.height, 12u);
+    // Every slice across the box is walled; the first and the last one are padding.
+    for (int x = 1; x < resolution - 1; ++x) {
+      size_t in_cover = 0;
+      size_t in_raster = 0;
+      for_each_voxel(albedo, [&](const glm::ivec3& voxel) {
+        if (voxel.x != x) return;
+        in_cover += occupied(albedo, voxel) ? 1 : 0;
+        in_raster += occupied(raster.at("v.voxels.albedo"), voxel) ? 1 : 0;
+      });
+      ASSERT_GT(in_raster, 0u) << x;
+      ASSERT_LE(in_raster, in_cover) << x;
+    }
+  }
+}
+
 TEST_F(VoxelizeRasterTest, CutOutTexelsClaimNothing) {
   scene::Material material = plain(glm::vec3(1));
   material.base_color_texture.image = 0;

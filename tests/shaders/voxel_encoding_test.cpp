@@ -159,8 +159,8 @@ TEST_F(VoxelEncodingTest, NormalsAndTangentsStayWithinThePapersError) {
     tangent_worst = std::max(tangent_worst, tangent_error);
   }
   const auto count = static_cast<double>(surfaces.size());
-  EXPECT_LT(normal_worst, 0.80);
-  EXPECT_LT(normal_sum / count, 0.37);
+  EXPECT_LT(normal_worst, 0.79);
+  EXPECT_LT(normal_sum / count, 0.36);
   EXPECT_LT(tangent_worst, 10.3);
   EXPECT_LT(tangent_sum / count, 1.35);
 }
