@@ -77,7 +77,8 @@ class PassContext {
   [[nodiscard]] virtual bool wanted(std::string_view output_port) const = 0;
   /// Disjoint boxes of a grid of `grid` voxels around the scene, at most 16, that hold every voxel in which dynamic
   /// triangles look different from the frame before: where what moves or deforms is, and where it was. Empty where
-  /// nothing moves within the grid. The whole grid for a pass that depends on older voxels (`@1`), if anything may move.
+  /// nothing moves within the grid. The whole grid for a pass that depends on older voxels (`@1`), if anything may
+  /// move.
   [[nodiscard]] virtual std::vector<VoxelBox> moved_boxes(const Extent3& grid) const = 0;
 
   /// Fills every part of an output or scratch port with one colour (unsigned formats: cast to unsigned).
