@@ -21,17 +21,19 @@ bool is_read(const Graph& graph, ValueId value) {
 }
 
 bool looks_back(const Graph& graph, const GraphPass& pass) {
-  const auto writes = [](const GraphPass& candidate, ValueId value) {
-    return std::any_of(candidate.outputs.begin(), candidate.outputs.end(),
-                       [&](const Use& use) { return use.value == value; });
-  };
-  return std::any_of(pass.inputs.begin(), pass.inputs.end(), [&](const Use& use) {
-    if (use.last_age > 0) return true;
-    // Edges within a frame have no cycles.
-    return std::any_of(graph.passes.begin(), graph.passes.end(), [&](const GraphPass& producer) {
-      return writes(producer, use.value) && looks_back(graph, producer);
-    });
-  });
+  std::vector<const GraphPass*> found = {&pass};  // each pass once, however many ways lead to it
+  for (std::size_t next = 0; next < found.size(); ++next) {
+    for (const Use& input : found[next]->inputs) {
+      if (input.last_age > 0) return true;
+      const auto writes = [&](const Use& output) { return output.value == input.value; };
+      const auto producer = std::find_if(graph.passes.begin(), graph.passes.end(), [&](const GraphPass& candidate) {
+        return std::any_of(candidate.outputs.begin(), candidate.outputs.end(), writes);
+      });
+      if (producer == graph.passes.end() || std::find(found.begin(), found.end(), &*producer) != found.end()) continue;
+      found.push_back(&*producer);
+    }
+  }
+  return false;
 }
 
 }  // namespace lightloom

@@ -21,12 +21,8 @@ constexpr std::array<std::pair<FrameState, const char*>, 7> kStateNames{{
 
 class Hoister {
  public:
-  Hoister(Graph& graph, FrameState changing)
-      : graph_(graph), changing_(changing), fixed_(graph.values.size()), rings_(graph.values.size()) {
-    for (std::size_t id = 0; id < graph.values.size(); ++id) {
-      fixed_[id] = graph.values[id].constant.has_value();
-      rings_[id] = graph.values[id].history > 0;
-    }
+  Hoister(Graph& graph, FrameState changing) : graph_(graph), changing_(changing), fixed_(graph.values.size()) {
+    for (std::size_t id = 0; id < graph.values.size(); ++id) fixed_[id] = graph.values[id].constant.has_value();
   }
 
   void run() {
@@ -46,7 +42,8 @@ class Hoister {
   bool runs_once(const GraphPass& pass) const {
     if (pass.type->side_effect || (pass.type->reads_of(pass.params) & changing_) != FrameState::none) return false;
     return std::all_of(pass.inputs.begin(), pass.inputs.end(), [&](const Use& use) { return fixed_[use.value]; }) &&
-           std::none_of(pass.outputs.begin(), pass.outputs.end(), [&](const Use& use) { return rings_[use.value]; });
+           std::none_of(pass.outputs.begin(), pass.outputs.end(),
+                        [&](const Use& use) { return graph_.values[use.value].history > 0; });
   }
 
   void mark(const std::vector<Use>& written) {
@@ -72,7 +69,6 @@ class Hoister {
   Graph& graph_;
   FrameState changing_;
   std::vector<bool> fixed_;  ///< by value: the same in every frame
-  std::vector<bool> rings_;
 };
 
 }  // namespace

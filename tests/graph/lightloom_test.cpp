@@ -3,23 +3,14 @@
 #include <algorithm>
 
 #include "framework/base/file.hpp"
-#include "passes/registry.hpp"
 #include "tests/graph/hazard_checker.hpp"
+#include "tests/graph/real_passes.hpp"
 #include "tests/graph/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
 
 // graphs/lightloom.json, linked against scenes that have or lack what its nodes ask for.
 namespace lightloom {
 namespace {
-
-const PassRegistry& real_passes() {
-  static const PassRegistry types = [] {
-    PassRegistry result;
-    passes::register_builtin_passes(result);
-    return result;
-  }();
-  return types;
-}
 
 Graph lightloom_graph(const LinkOptions& options = {}, bool specular = true, bool dynamic = true) {
   LinkEnvironment scene = toy::environment(dynamic);

@@ -6,22 +6,13 @@
 
 #include "framework/base/file.hpp"
 #include "framework/base/text.hpp"
-#include "passes/registry.hpp"
 #include "tests/graph/hazard_checker.hpp"
+#include "tests/graph/real_passes.hpp"
 #include "tests/graph/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
 
 namespace lightloom {
 namespace {
-
-const PassRegistry& real_passes() {
-  static const PassRegistry types = [] {
-    PassRegistry result;
-    passes::register_builtin_passes(result);
-    return result;
-  }();
-  return types;
-}
 
 std::string paper_text() {
   return read_text_file(source_dir() / "graphs" / "paper.json");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "passes/bundles.hpp"
 
@@ -146,6 +147,18 @@ void for_each_voxel(const image::HostImage& image, const std::function<void(cons
   for (int z = 0; z < static_cast<int>(extent.depth); ++z)
     for (int y = 0; y < static_cast<int>(extent.height); ++y)
       for (int x = 0; x < static_cast<int>(extent.width); ++x) visit({x, y, z});
+}
+
+std::vector<WorldTriangle> random_triangles(size_t count, float size, uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(0, 1);
+  std::vector<WorldTriangle> triangles(count);
+  for (WorldTriangle& triangle : triangles) {
+    const glm::vec3 center(4 * unit(random), 2 * unit(random), 3 * unit(random));
+    for (glm::vec3& corner : triangle)
+      corner = center + size * (glm::vec3(unit(random), unit(random), unit(random)) - 0.5f);
+  }
+  return triangles;
 }
 
 GridTriangle in_grid(const run::Grid& grid, const WorldTriangle& triangle) {

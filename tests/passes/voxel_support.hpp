@@ -25,6 +25,9 @@ scene::Scene make_triangle_scene(const std::vector<WorldTriangle>& triangles, st
 /// The six faces of the cube around the origin with that half edge, turned by `rotation`, seen from outside.
 std::vector<WorldTriangle> cube_triangles(float half_edge, const glm::mat3& rotation);
 
+/// With corners up to `size` / 2 [m] on each axis from random centers in the box from 0 to (4, 2, 3).
+std::vector<WorldTriangle> random_triangles(size_t count, float size, uint32_t seed);
+
 /// Material of one colour without specular reflection.
 scene::Material plain(const glm::vec3& base_color);
 

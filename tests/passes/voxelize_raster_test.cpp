@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <random>
 
 #include "tests/passes/voxel_support.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -14,18 +13,6 @@ using VoxelizeRasterTest = DeviceTest;
 // Rasterizers keep corners in steps of at most 1/16 pixel (Vulkan's least precision) and round half a step, on x and y;
 // nearer to an edge, to the next voxel, or to another dominant axis than that, either answer is right.
 constexpr double kBorder = 0.05;
-
-std::vector<WorldTriangle> random_triangles(size_t count, float size, uint32_t seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> unit(0, 1);
-  std::vector<WorldTriangle> triangles(count);
-  for (WorldTriangle& triangle : triangles) {
-    const glm::vec3 center(4 * unit(random), 2 * unit(random), 3 * unit(random));
-    for (glm::vec3& corner : triangle)
-      corner = center + size * (glm::vec3(unit(random), unit(random), unit(random)) - 0.5f);
-  }
-  return triangles;
-}
 
 enum class Answer : uint8_t { no, yes, unclear };
 

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <random>
 
 #include "tests/passes/voxel_support.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -11,18 +10,6 @@ namespace {
 
 using VoxelizeTest = DeviceTest;
 constexpr double kBorder = 1e-4;  // voxels
-
-std::vector<WorldTriangle> random_triangles(size_t count, float size, uint32_t seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> unit(0, 1);
-  std::vector<WorldTriangle> triangles(count);
-  for (WorldTriangle& triangle : triangles) {
-    const glm::vec3 center(4 * unit(random), 2 * unit(random), 3 * unit(random));
-    for (glm::vec3& corner : triangle)
-      corner = center + size * (glm::vec3(unit(random), unit(random), unit(random)) - 0.5f);
-  }
-  return triangles;
-}
 
 run::Grid grid_of(const scene::Scene& scene, int resolution) {
   return run::make_grid(scene.bounds.min, scene.bounds.max, static_cast<uint32_t>(resolution));
