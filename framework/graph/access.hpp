@@ -19,8 +19,8 @@ enum class Access : uint8_t {
   fragment_storage_read_write,  ///< atomics from a draw
   color_attachment_write,
   depth_attachment_write,
-  transfer_read,   ///< copy to a read-back buffer
-  transfer_write,  ///< clear, upload
+  transfer_read,   ///< copy to a read-back buffer, input of a host pass
+  transfer_write,  ///< clear, upload, output of a host pass
   host_read,
   frame_input_read,  ///< scene and frame buffers, read by any shader stage
 };

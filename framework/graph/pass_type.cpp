@@ -16,7 +16,8 @@ class TableCheck {
 
   void run() const {
     require(!type_.name.empty(), "has no name");
-    require(static_cast<bool>(type_.record), "has no record function");
+    require(static_cast<bool>(type_.record) != static_cast<bool>(type_.host),
+            "needs either a record or a host function");
     std::set<std::pair<std::string, bool>> ports;
     for (const Port& port : type_.ports) {
       // An input and an output may share a name, scratch and outputs may not: both are "pass.port" to a dump.
@@ -42,6 +43,8 @@ class TableCheck {
     require(!port.name.empty() && !port.parts.empty(), which + "needs a name and at least one part");
     check_parts(port, which);
     check_extent(port, which);
+    require(!port.needed_with || port.optional, which + "depends on params and must be optional");
+    if (type_.host) check_host_port(port, which);
     const AccessInfo& access = access_info(port.access);
     if (port.direction == Direction::in) {
       require(access.reads && !access.writes, which + "is an input, its access must read and not write");
@@ -56,6 +59,13 @@ class TableCheck {
             which + "is a depth attachment, which each draw clears, and cannot be persistent");
     require(port.direction == Direction::out || !port.bypass, which + "is scratch and cannot have a bypass");
     if (port.bypass && !port.bypass->input.empty()) check_bypass(port, which);
+  }
+
+  void check_host_port(const Port& port, const std::string& which) const {
+    require(port.direction != Direction::scratch && !port.array && !port.persistent,
+            which + "of a host pass cannot be scratch, an array or persistent");
+    require(port.access == (port.direction == Direction::in ? Access::transfer_read : Access::transfer_write),
+            which + "of a host pass must have access transfer_read (inputs) or transfer_write (outputs)");
   }
 
   void check_parts(const Port& port, const std::string& which) const {

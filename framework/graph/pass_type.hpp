@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "framework/graph/host_context.hpp"
 #include "framework/graph/param.hpp"
 #include "framework/graph/pass_context.hpp"
 #include "framework/graph/port.hpp"
@@ -37,7 +38,13 @@ constexpr bool contains(FrameState set, FrameState part) {
   return (static_cast<uint32_t>(set) & static_cast<uint32_t>(part)) == static_cast<uint32_t>(part);
 }
 
-/// A pass type: its ports, its params and `record`. It keeps no state.
+/// What a pass type needs of a device beyond Vulkan 1.3.
+struct DeviceNeeds {
+  bool ray_query =
+      false;  ///< VK_KHR_ray_query and acceleration structures; the context binds the scene's as `scene_tlas`
+};
+
+/// A pass type: its ports, its params and `record` (or `host`). It keeps no state.
 struct PassType {
   std::string name;
   uint32_t version = 1;
@@ -49,6 +56,10 @@ struct PassType {
   std::function<FrameState(const ParamSet&)> reads_with;
   bool side_effect = false;  ///< a root: never culled
   std::function<void(PassContext&)> record;
+  /// A pass that computes on the host instead of recording commands; exactly one of `record` and `host` is set. Its
+  /// inputs have access transfer_read, its outputs transfer_write.
+  std::function<void(HostContext&)> host;
+  DeviceNeeds needs;
 
   [[nodiscard]] const Port* find_port(std::string_view port, Direction direction) const;
   [[nodiscard]] const Param* find_param(std::string_view param) const;

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/graph/access.hpp"
 #include "framework/graph/desc.hpp"
+#include "framework/graph/param.hpp"
 
 namespace lightloom {
 
@@ -40,7 +42,10 @@ struct Port {
   Extent3 fixed_extent;  ///< with ExtentRule::fixed
   Access access = Access::none;
   bool optional = false;  ///< inputs: may be left unconnected
-  bool array = false;     ///< inputs: takes a history range `@a..b`
+  /// Optional inputs: do these params make the pass read it? Where not, it counts as unconnected, and what only it
+  /// needs is culled. Empty: they always do.
+  std::function<bool(const ParamSet&)> needed_with;
+  bool array = false;  ///< inputs: takes a history range `@a..b`
   /// Outputs and scratch: a frame starts with what the pass left here a frame ago, so that the pass may rewrite a part
   /// of it; PassContext::kept says whether there is something. What is left must not depend on what was there: the
   /// image after a partial rewrite equals, bit for bit, the one a full rewrite would make.

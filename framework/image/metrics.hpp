@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+
+#include "framework/image/host_image.hpp"
+
+namespace lightloom::image {
+
+enum class FlipKind : uint8_t { ldr, hdr };
+
+struct MetricOptions {
+  FlipKind flip = FlipKind::hdr;
+  double pixels_per_degree = 67.0206;  ///< of FLIP's viewer: 0.7 m from a 0.7 m wide screen of 3840 pixels
+  double epsilon = 1e-2;       ///< of relMSE, MAPE and SMAPE in [0,1] forms: what keeps their denominators from 0
+  double firefly_factor = 10;  ///< a firefly: a pixel whose luminance is more than this times the reference's
+};
+
+/// Errors of a test image T against a reference R, over all pixels and the three colour channels, linear radiance or
+/// display values alike. Pixels with a NaN or an infinity in either are left out of all but `non_finite`.
+/// Definitions and sources: docs/metrics.md.
+struct Metrics {
+  double mse = 0;         ///< mean of (T - R)^2
+  double rmse = 0;        ///< its square root
+  double psnr = 0;        ///< 10 log10(1 / mse) [dB], peak 1; infinite for equal images
+  double relmse = 0;      ///< mean of (T - R)^2 / (R^2 + epsilon)
+  double mape = 0;        ///< mean of |T - R| / (|R| + epsilon)
+  double smape = 0;       ///< mean of 2 |T - R| / (|T| + |R|), 0..2, 0 where both are 0
+  double ssim = 0;        ///< of luminance, 11x11 Gaussian of sigma 1.5, where the window lies within the image
+  double flip = 0;        ///< mean FLIP, 0..1
+  double mean_error = 0;  ///< mean of T - R: negative where the test is too dark
+  double max_error = 0;   ///< largest |T - R|
+  uint64_t fireflies = 0;
+  uint64_t non_finite = 0;  ///< pixels of the test with a NaN or an infinity
+};
+
+/// Both images two-dimensional with at least one pixel, of the same size and with 1, 3 or 4 channels (alpha is left
+/// out; one channel counts as grey). Throws Error(invalid_input) otherwise.
+[[nodiscard]] Metrics compare(const HostImage& reference, const HostImage& test, const MetricOptions& options = {});
+
+/// FLIP of each pixel, r32_sfloat, 0..1.
+[[nodiscard]] HostImage flip_map(const HostImage& reference, const HostImage& test, const MetricOptions& options = {});
+
+/// |T - R| / (|R| + epsilon) of each pixel, mean over channels, r32_sfloat.
+[[nodiscard]] HostImage relative_error_map(const HostImage& reference, const HostImage& test,
+                                           const MetricOptions& options = {});
+
+/// A map as colours (magma), rgba8_unorm: 0 is black, `white` and above the brightest.
+[[nodiscard]] HostImage heat_map(const HostImage& map, double white = 1);
+
+}  // namespace lightloom::image
