@@ -56,6 +56,8 @@ struct Row {
   std::map<std::string, Verdict> verdicts;  ///< by metric, "frame_ms" too; empty in the baseline's row
   Estimate frame_ms;                        ///< medians of frames, over seeds
   Timing frame;                             ///< over all timed frames of all seeds
+  Timing wall;                              ///< of whole frames on the host, read-back included
+  bool disturbed = false;                   ///< other cells ran at the same time: the times say little
   double once_ms = 0;                       ///< all hoisted passes
   double first_frame_ms = 0;                ///< wall time of the first frame, with pipelines made
   std::vector<PassTiming> passes;           ///< in execution order
@@ -92,6 +94,7 @@ struct StudyResults {
   std::vector<std::string> axes;  ///< names of what varies
   std::vector<std::pair<std::string, std::string>>
       provenance;  ///< device, driver, version, commit, seeds, frames, sizes
+  std::vector<std::string> notes;  ///< what a reader must know: times disturbed, one seed alone, no reference, ...
   std::vector<View> views;
   std::vector<Row> rows;
   std::vector<TradeEntry> equal_time;
