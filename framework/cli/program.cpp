@@ -42,6 +42,12 @@ ExitCode run_program(const std::vector<std::string>& arguments, const CommandCon
   try {
     Command program("lightloom", "Declarative render graphs with pluggable global illumination.");
     program.version("lightloom " + run::version() + " (commit " + run::commit() + ")").epilog(std::string(kEpilog));
+    // main takes these out before; what is left of them is a mistake that the parser reports.
+    std::vector<std::string> plugins;
+    program
+        .option("--plugin", plugins,
+                "Load a plug-in with pass types of one's own, before any command; also $LIGHTLOOM_PLUGINS, by ':'")
+        .placeholder("FILE");
     add_render_command(program, context, arguments);
     add_check_command(program, context);
     add_plan_command(program, context);

@@ -31,8 +31,11 @@ struct RenderOptions {
   bool validate = false;
 };
 
-run::RenderRequest make_request(const RenderOptions& options, const std::vector<std::string>& arguments) {
+run::RenderRequest make_request(const RenderOptions& options, const CommandContext& context,
+                                const std::vector<std::string>& arguments) {
   run::RenderRequest request;
+  request.plugins = context.plugins;
+  request.shaders = run::shader_folders_with(context.plugins);
   request.graph = options.graph;
   request.scene = options.scene;
   request.link = options.changes.link_options();
@@ -70,7 +73,7 @@ void report(const run::RenderSummary& summary, uint32_t frames, std::ostream& ou
 
 ExitCode render(const RenderOptions& options, const CommandContext& context,
                 const std::vector<std::string>& arguments) {
-  const run::RenderRequest request = make_request(options, arguments);
+  const run::RenderRequest request = make_request(options, context, arguments);
   const uint32_t frames = request.last_frame - request.first_frame + 1;
   Diagnostics diagnostics;
   run::RenderSummary summary;

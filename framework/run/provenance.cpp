@@ -84,6 +84,13 @@ Json device_record(const gpu::DeviceInfo& info) {
           {"uuid", info.uuid_text()}};
 }
 
+Json plugin_records(const std::vector<LoadedPlugin>& plugins) {
+  Json records = Json::array();
+  for (const LoadedPlugin& plugin : plugins)
+    records.push_back({{"file", plugin.file.generic_string()}, {"name", plugin.name}, {"version", plugin.version}});
+  return records;
+}
+
 Json scene_record(const scene::Scene& scene) {
   Json features = Json::object();
   for (const auto& [name, present] : scene.features.named()) features[name] = present;

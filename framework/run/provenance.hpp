@@ -7,12 +7,14 @@
 #include "framework/gpu/device.hpp"
 #include "framework/graph/plan.hpp"
 #include "framework/run/frame_result.hpp"
+#include "framework/run/plugins.hpp"
 #include "framework/scene/camera_path.hpp"
 #include "framework/scene/scene.hpp"
 
 namespace lightloom::run {
 
 [[nodiscard]] nlohmann::ordered_json device_record(const gpu::DeviceInfo& info);
+[[nodiscard]] nlohmann::ordered_json plugin_records(const std::vector<LoadedPlugin>& plugins);
 [[nodiscard]] nlohmann::ordered_json scene_record(const scene::Scene& scene);
 /// File, interpolation and keyframes; null without a path.
 [[nodiscard]] nlohmann::ordered_json camera_path_record(const std::optional<scene::CameraPath>& path);

@@ -31,6 +31,7 @@ Json run_record(const RenderRequest& request, const Executor& executor, const sc
   record["lightloom"] = version();
   record["commit"] = commit();
   record["command_line"] = request.command_line;
+  record["plugins"] = plugin_records(request.plugins);
   record["graph"] = graph_record(executor.plan());
   record["graph"]["file"] = request.graph.generic_string();
   record["scene"] = scene_record(scene);

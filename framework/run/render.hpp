@@ -10,6 +10,7 @@
 #include "framework/gpu/device.hpp"
 #include "framework/graph/link.hpp"
 #include "framework/graph/pass_type.hpp"
+#include "framework/run/plugins.hpp"
 #include "framework/run/run_folder.hpp"
 #include "framework/run/shader_folders.hpp"
 
@@ -30,6 +31,7 @@ struct RenderRequest {
   DumpFormat dump_format = DumpFormat::exr;
   gpu::DeviceOptions device;
   ShaderFolders shaders = default_shader_folders();
+  std::vector<LoadedPlugin> plugins;      ///< for the provenance record
   std::vector<std::string> command_line;  ///< for the provenance record
 };
 
