@@ -141,12 +141,20 @@ Device::~Device() {
 }
 
 void Device::run_commands(const std::function<void(VkCommandBuffer)>& record) {
+  record(begin_commands());
+  finish_commands();
+}
+
+VkCommandBuffer Device::begin_commands() {
   check(vkResetCommandPool(device_, command_pool_.get(), 0), "vkResetCommandPool");
   VkCommandBufferBeginInfo begin{};
   begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   check(vkBeginCommandBuffer(command_buffer_, &begin), "vkBeginCommandBuffer");
-  record(command_buffer_);
+  return command_buffer_;
+}
+
+void Device::finish_commands() {
   check(vkEndCommandBuffer(command_buffer_), "vkEndCommandBuffer");
   submit_and_wait();
 }

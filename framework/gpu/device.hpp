@@ -76,6 +76,11 @@ class Device {
   /// Records one command buffer, submits it and waits until it is done. Not reentrant, one thread at a time.
   /// Throws Error(run_failed) if the device is lost, or (except on a CPU device) does not finish within 120 s.
   void run_commands(const std::function<void(VkCommandBuffer)>& record);
+  /// The two halves of run_commands, for who is still to decide what follows (CommandSession): begins the one command
+  /// buffer, forgetting what an unfinished recording left in it …
+  [[nodiscard]] VkCommandBuffer begin_commands();
+  /// … and ends it, submits it and waits until it is done. Errors as above.
+  void finish_commands();
 
   /// Name that validation messages show; without effect unless validating.
   void set_name(VkObjectType type, uint64_t object, const std::string& name) const;

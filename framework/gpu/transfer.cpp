@@ -125,6 +125,12 @@ void record_image_to_buffer(VkCommandBuffer commands, const Image& source, const
   vkCmdCopyImageToBuffer(commands, source.get(), layout, target, 1, &copy);
 }
 
+void record_buffer_to_image(VkCommandBuffer commands, VkBuffer source, VkDeviceSize offset, const Image& target,
+                            const ImageRegion& region, VkImageLayout layout) {
+  const VkBufferImageCopy copy = copy_of(target, region, offset);
+  vkCmdCopyBufferToImage(commands, source, target.get(), layout, 1, &copy);
+}
+
 void upload_buffer(Device& device, const Buffer& target, std::span<const std::byte> data, VkDeviceSize offset) {
   if (offset > target.size() || data.size() > target.size() - offset) {
     throw Error(ExitCode::run_failed, "upload of " + std::to_string(data.size()) + " bytes at " +

@@ -45,6 +45,10 @@ void upload_image(Device& device, const Image& target, std::span<const SubimageD
 void record_image_to_buffer(VkCommandBuffer commands, const Image& source, const ImageRegion& region,
                             VkImageLayout layout, VkBuffer target, VkDeviceSize offset);
 
+/// Records the copy of a tightly packed region from `offset` of a buffer; barriers are the caller's.
+void record_buffer_to_image(VkCommandBuffer commands, VkBuffer source, VkDeviceSize offset, const Image& target,
+                            const ImageRegion& region, VkImageLayout layout);
+
 /// Records a transition of all mip levels and layers that waits for all earlier commands.
 void record_layout_change(VkCommandBuffer commands, const Image& image, VkImageLayout from, VkImageLayout to);
 

@@ -20,12 +20,14 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
       plan_(std::move(plan)),
       images_(device, plan_),
       readback_(device, plan_),
+      host_passes_(device, plan_),
       scene_(device, scene,
              {.camera = options.camera,
               .camera_path = options.camera_path,
               .view = plan_.graph.view,
               .seed = options.seed,
               .frames_per_second = options.frames_per_second}),
+      memo_(options.memo ? options.memo : std::make_shared<SceneMemo>()),
       placeholders_(device),
       shaders_(device, {.include_directories = options.shaders.sources, .cache_directory = options.shaders.cache}),
       descriptors_(device),
@@ -39,7 +41,9 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
 FrameResult Executor::run_frame(uint32_t frame) {
   const FrameConditions conditions = scene_.prepare(frame);
   descriptors_.reset();
-  device_.run_commands([&](VkCommandBuffer commands) { record_frame(commands); });
+  gpu::CommandSession session(device_);
+  record_frame(session);
+  session.submit();
   FrameResult result = collect(frame, conditions);
   ++frame_count_;
   return result;
@@ -50,40 +54,55 @@ void Executor::record_prologue(VkCommandBuffer commands) const {
   record_barriers(commands, plan_.prologue_barriers);
 }
 
-void Executor::record_frame(VkCommandBuffer commands) {
+void Executor::record_frame(gpu::CommandSession& session) {
   const bool first = frame_count_ == 0;
-  timestamps_.reset(commands);
-  if (first) record_prologue(commands);
-  record_barriers(commands, plan_.frame_start);
-  scene_.record_upload(commands);
-  record_barriers(commands, plan_.inputs_ready);
+  timestamps_.reset(session.get());
+  if (first) record_prologue(session.get());
+  record_barriers(session.get(), plan_.frame_start);
+  scene_.record_upload(session.get());
+  record_barriers(session.get(), plan_.inputs_ready);
   if (first) {
-    record_steps(commands, plan_.once, query_count(plan_.steps.size()));
-    record_barriers(commands, plan_.once_barriers);
+    record_steps(session, plan_.once, query_count(plan_.steps.size()));
+    record_barriers(session.get(), plan_.once_barriers);
   }
-  record_copies(commands, plan_.opening_copies);
-  record_steps(commands, plan_.steps, 0);
-  Readback::record_end(commands);
+  record_copies(session.get(), plan_.opening_copies);
+  record_steps(session, plan_.steps, 0);
+  Readback::record_end(session.get());
 }
 
-void Executor::record_steps(VkCommandBuffer commands, const std::vector<PlanStep>& steps, uint32_t first_query) {
-  const RecordingEnvironment environment{.commands = commands,
-                                         .images = &images_,
-                                         .frame_count = frame_count_,
-                                         .scene = &scene_.bindings(),
-                                         .placeholders = &placeholders_,
-                                         .shaders = &shaders_,
-                                         .descriptors = &descriptors_};
+void Executor::record_steps(gpu::CommandSession& session, const std::vector<PlanStep>& steps, uint32_t first_query) {
   uint32_t query = first_query;
   for (const PlanStep& step : steps) {
     const GraphPass& pass = plan_.graph.passes[step.pass];
-    record_barriers(commands, step.barriers);
-    record_timestamp(commands, query++);
-    PassRecorder recorder(environment, plan_.graph, pass);
-    pass.type->record(recorder);
-    record_timestamp(commands, query++);
-    record_copies(commands, step.copies);
+    record_barriers(session.get(), step.barriers);
+    record_timestamp(session.get(), query++);
+    if (pass.type->host)
+      run_host_pass(session, pass);
+    else
+      record_pass(session.get(), pass);
+    record_timestamp(session.get(), query++);
+    record_copies(session.get(), step.copies);
   }
+}
+
+void Executor::record_pass(VkCommandBuffer commands, const GraphPass& pass) {
+  PassRecorder recorder({.commands = commands,
+                         .images = &images_,
+                         .frame_count = frame_count_,
+                         .scene = &scene_.bindings(),
+                         .placeholders = &placeholders_,
+                         .shaders = &shaders_,
+                         .descriptors = &descriptors_},
+                        plan_.graph, pass);
+  pass.type->record(recorder);
+}
+
+void Executor::run_host_pass(gpu::CommandSession& session, const GraphPass& pass) {
+  host_passes_.record_inputs(session.get(), pass, images_, frame_count_);
+  session.submit();
+  host_milliseconds_[pass.name] =
+      host_passes_.run(plan_.graph, pass, {.scene = &scene_.frame_scene(), .memo = memo_.get()});
+  host_passes_.record_outputs(session.get(), plan_.graph, pass, images_, frame_count_);
 }
 
 void Executor::record_timestamp(VkCommandBuffer commands, uint32_t query) const {
@@ -121,9 +140,13 @@ std::vector<PassTime> Executor::times_of(const std::vector<PlanStep>& steps, con
                                          size_t first_query) const {
   std::vector<PassTime> times;
   for (size_t step = 0; step < steps.size(); ++step) {
+    const std::string& pass = plan_.graph.passes[steps[step].pass].name;
     const size_t query = first_query + 2 * step;
-    const double nanoseconds = stamps.empty() ? -1e6 : stamps.at(query + 1) - stamps.at(query);
-    times.push_back({plan_.graph.passes[steps[step].pass].name, nanoseconds * 1e-6});
+    const auto host = host_milliseconds_.find(pass);
+    if (host != host_milliseconds_.end())
+      times.push_back({pass, host->second});
+    else
+      times.push_back({pass, stamps.empty() ? -1 : (stamps.at(query + 1) - stamps.at(query)) * 1e-6});
   }
   return times;
 }

@@ -1,16 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "framework/gpu/command_session.hpp"
 #include "framework/gpu/device.hpp"
 #include "framework/gpu/timestamps.hpp"
 #include "framework/graph/plan.hpp"
 #include "framework/run/frame_result.hpp"
+#include "framework/run/host_passes.hpp"
 #include "framework/run/pass_recorder.hpp"
 #include "framework/run/readback.hpp"
+#include "framework/run/scene_memo.hpp"
 #include "framework/run/scene_resources.hpp"
 #include "framework/run/shader_folders.hpp"
 #include "framework/run/value_images.hpp"
@@ -23,6 +28,8 @@ struct ExecutorOptions {
   std::optional<scene::CameraPath> camera_path = std::nullopt;  ///< moves the camera instead of what the scene says
   uint32_t seed = 0;
   double frames_per_second = 30;  ///< animation time of frame f is f / frames_per_second
+  /// What host passes derive from the scene, to be shared by executors on the same one; empty: the executor's own.
+  std::shared_ptr<SceneMemo> memo = nullptr;
 };
 
 /// Turns a plan into Vulkan objects and runs frames. Owns the images and history rings; passes own nothing.
@@ -42,10 +49,12 @@ class Executor {
   [[nodiscard]] uint64_t value_bytes() const { return images_.bytes(); }
 
  private:
-  void record_frame(VkCommandBuffer commands);
+  void record_frame(gpu::CommandSession& session);
   void record_prologue(VkCommandBuffer commands) const;
-  /// Timestamps are queries `first_query` and on, two a step.
-  void record_steps(VkCommandBuffer commands, const std::vector<PlanStep>& steps, uint32_t first_query);
+  /// Timestamps are queries `first_query` and on, two a step. What comes before a host pass is submitted.
+  void record_steps(gpu::CommandSession& session, const std::vector<PlanStep>& steps, uint32_t first_query);
+  void record_pass(VkCommandBuffer commands, const GraphPass& pass);
+  void run_host_pass(gpu::CommandSession& session, const GraphPass& pass);
   void record_timestamp(VkCommandBuffer commands, uint32_t query) const;
   void record_copies(VkCommandBuffer commands, const std::vector<Copy>& copies) const;
   [[nodiscard]] FrameResult collect(uint32_t frame, const FrameConditions& conditions) const;
@@ -56,11 +65,14 @@ class Executor {
   Plan plan_;
   ValueImages images_;
   Readback readback_;
+  HostPasses host_passes_;
   SceneResources scene_;
+  std::shared_ptr<SceneMemo> memo_;
   Placeholders placeholders_;
   ShaderLibrary shaders_;
   gpu::DescriptorAllocator descriptors_;
   gpu::TimestampPool timestamps_;
+  std::map<std::string, double, std::less<>> host_milliseconds_;  ///< by pass, of its last run
   uint64_t frame_count_ = 0;
 };
 

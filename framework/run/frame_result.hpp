@@ -17,7 +17,8 @@ struct NamedImage {
 
 struct PassTime {
   std::string pass;
-  double milliseconds = 0;  ///< device time between timestamps around the pass; negative where the device has none
+  double milliseconds = 0;  ///< between the device's timestamps around the pass; negative where it has none.
+                            ///< Of a host pass: what it computed, by the host's clock, without the copies
 };
 
 /// Under which conditions a frame was made.

@@ -16,7 +16,7 @@ class Readback {
 
   /// Records the copy; its barriers are the plan's.
   void record(VkCommandBuffer commands, const Copy& copy, const ValueImages& images, uint64_t frame_count) const;
-  /// Makes the copies visible to the host; last command of a frame.
+  /// Makes the copies visible to the host; last command of a submission.
   static void record_end(VkCommandBuffer commands);
   /// The texels of the last frame; valid once the device is done.
   [[nodiscard]] image::HostImage fetch(ValueId value, uint32_t age) const;

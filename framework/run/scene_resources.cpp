@@ -227,18 +227,20 @@ uint32_t SceneResources::fill_light_block(LightBlock& block, const scene::Pose& 
 
 FrameConditions SceneResources::prepare(uint32_t frame) {
   const double time = frame / options_.frames_per_second;
-  const scene::Pose pose = scene::pose(scene_, time);
-  moving_.update(pose.dynamic_vertices);
+  pose_ = scene::pose(scene_, time);
+  moving_.update(pose_.dynamic_vertices);
   bindings_.moved = moving_.moved();
   const uint32_t history_length = std::min(static_cast<uint32_t>(views_.size()), kHistoryLimit - 1);
-  scene::Camera camera = pose.cameras.at(camera_);
+  scene::Camera camera = pose_.cameras.at(camera_);
   if (options_.camera_path) camera = scene::camera_on_path(*options_.camera_path, time, camera);
+  frame_scene_ = {
+      .scene = &scene_, .pose = &pose_, .camera = camera, .time = time, .frame = frame, .seed = options_.seed};
   views_.push_front(view_of(camera, options_.view, scene_.bounds));
   if (views_.size() > kHistoryLimit) views_.pop_back();
   newest_slot_ = (newest_slot_ + 1) % kHistoryLimit;
 
   LightBlock lights{};
-  const uint32_t hint_count = fill_light_block(lights, pose, frame);
+  const uint32_t hint_count = fill_light_block(lights, pose_, frame);
   const FrameBlock block = make_frame_block(scene_, {.frame = frame,
                                                      .seed = options_.seed,
                                                      .history_length = history_length,
@@ -248,10 +250,10 @@ FrameConditions SceneResources::prepare(uint32_t frame) {
   const std::span<std::byte> staging = staging_.mapped();
   std::memcpy(staging.data(), &block, sizeof block);
   std::memcpy(staging.data() + kLightOffset, &lights, sizeof lights);
-  stage_geometry(pose.dynamic_vertices);
+  stage_geometry(pose_.dynamic_vertices);
   FrameConditions conditions{
       .time = time, .history_length = history_length, .view = views_.front(), .moving_positions = {}};
-  for (const scene::Vertex& vertex : pose.dynamic_vertices) conditions.moving_positions.push_back(vertex.position);
+  for (const scene::Vertex& vertex : pose_.dynamic_vertices) conditions.moving_positions.push_back(vertex.position);
   return conditions;
 }
 

@@ -12,6 +12,7 @@
 #include "framework/run/moved_boxes.hpp"
 #include "framework/run/scene_bindings.hpp"
 #include "framework/scene/camera_path.hpp"
+#include "framework/scene/frame_scene.hpp"
 #include "framework/scene/lights.hpp"
 #include "framework/scene/scene.hpp"
 
@@ -33,11 +34,15 @@ struct SceneResourceOptions {
 class SceneResources {
  public:
   SceneResources(gpu::Device& device, const scene::Scene& scene, SceneResourceOptions options);
+  SceneResources(const SceneResources&) = delete;
+  SceneResources& operator=(const SceneResources&) = delete;
 
   [[nodiscard]] const SceneBindings& bindings() const { return bindings_; }
   /// Poses the scene, draws light samples and fills the staging buffer. The frames prepared before are its history.
   FrameConditions prepare(uint32_t frame);
   void record_upload(VkCommandBuffer commands) const;
+  /// The scene as it was posed last.
+  [[nodiscard]] const scene::FrameScene& frame_scene() const { return frame_scene_; }
   /// What had to be changed for the device, e.g. resampled textures.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -53,8 +58,10 @@ class SceneResources {
   const scene::Scene& scene_;
   SceneResourceOptions options_;
   size_t camera_ = 0;
-  std::deque<View> views_;    ///< newest first
-  uint32_t newest_slot_ = 0;  ///< of past_positions_
+  scene::Pose pose_;
+  scene::FrameScene frame_scene_;  ///< points at the scene and at pose_
+  std::deque<View> views_;         ///< newest first
+  uint32_t newest_slot_ = 0;       ///< of past_positions_
   MovingObjects moving_;
   scene::EmissionTable emission_;
   scene::EmitterSampler emitters_;
