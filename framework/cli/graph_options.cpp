@@ -17,6 +17,9 @@ void GraphOptions::add_to(Command& command) {
   group(command.flag("--no-hoist", no_hoist,
                      "Run every pass in every frame, those as well that give the same each time; the pictures are the "
                      "same"));
+  group(command.flag("--general", general,
+                     "Model all that any scene could need, not only what this one requires: every pass whatever its "
+                     "'when', shaders with every feature, nothing hoisted; the pictures are the same"));
   group(command.option("--size", size, "View size in pixels, instead of the graph's"));
   group(command.option("--trace-size", trace_size, "Size in pixels at which is traced, instead of the graph's"));
 }
@@ -29,6 +32,7 @@ LinkOptions GraphOptions::link_options() const {
   for (const Assignment& set : sets) options.sets.emplace_back(set.name, set.value);
   for (const Assignment& swap : swaps) options.swaps.emplace_back(swap.name, swap.value);
   options.hoist = !no_hoist;
+  options.general = general;
   if (size) options.view = {size->width, size->height};
   if (trace_size) options.trace = {trace_size->width, trace_size->height};
   return options;

@@ -19,6 +19,7 @@ struct GraphOptions {
   std::optional<Size> size;
   std::optional<Size> trace_size;
   bool no_hoist = false;
+  bool general = false;
 
   void add_to(Command& command);
   [[nodiscard]] LinkOptions link_options() const;

@@ -90,6 +90,7 @@ struct Graph {
   std::vector<PassRemark> culled;    ///< enabled, but neither an output, a capture nor a side effect needs it
   std::vector<PassRemark> bypassed;  ///< disabled; consumers, if any, see its bypass
   std::vector<std::string> notes;    ///< what a swap made fall away, …
+  bool general = false;              ///< LinkOptions::general: shaders are to have every scene feature
 };
 
 }  // namespace lightloom

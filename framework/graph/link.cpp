@@ -40,7 +40,10 @@ std::string image_name(const Nodes& nodes, const ImageRef& image) {
 
 std::optional<Graph> link(const GraphSpec& spec, const PassRegistry& registry, const LinkOptions& options,
                           const LinkEnvironment& environment, Diagnostics& diagnostics) {
-  const linking::Input input{spec, registry, options, environment};
+  LinkEnvironment assumed = environment;
+  if (options.general)
+    for (auto& [name, present] : assumed.scene_features) present = true;
+  const linking::Input input{spec, registry, options, assumed};
   linking::Report report(diagnostics);
   std::vector<std::string> notes;
   linking::Nodes nodes = linking::make_nodes(input, report, notes);
@@ -58,7 +61,8 @@ std::optional<Graph> link(const GraphSpec& spec, const PassRegistry& registry, c
   std::optional<Graph> graph = linking::assemble(nodes, wiring, needs, shapes);
   if (!graph || diagnostics.has_errors()) return std::nullopt;
   graph->name = spec.name;
-  if (options.hoist) hoist(*graph, environment.changing);
+  graph->general = options.general;
+  if (options.hoist && !options.general) hoist(*graph, environment.changing);
   graph->notes = std::move(notes);
   return graph;
 }

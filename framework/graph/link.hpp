@@ -26,6 +26,8 @@ struct LinkOptions {
   std::optional<std::pair<uint32_t, uint32_t>> trace;      ///< the same of what is traced
   std::vector<std::string> captures;  ///< globs over "pass.port" and "pass.port.part"; "*" means every value
   bool hoist = true;                  ///< a pass whose result is the same in every frame runs in the first one alone
+  bool general = false;  ///< as if the scene had every feature, and all of it changed: no `when` fails, shaders are
+                         ///< not specialised, nothing is hoisted. For measuring what that gains
 };
 
 /// What the graph is linked against.

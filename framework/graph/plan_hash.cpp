@@ -27,6 +27,7 @@ class PlanHasher {
       value(output.value);
       hasher_.number(output.age);
     }
+    if (plan_.graph.general) hasher_.text("general");  // other constants in the shaders
     return hasher_.value();
   }
 

@@ -134,6 +134,7 @@ Json graph_record(const Plan& plan) {
   const MemoryUse memory = memory_use(graph);
   return {{"name", graph.name},
           {"plan_hash", hex(plan_hash(plan))},
+          {"general", graph.general},
           {"view", {{"width", graph.view.width}, {"height", graph.view.height}}},
           {"trace", {{"width", graph.trace.width}, {"height", graph.trace.height}}},
           {"params", params},

@@ -64,6 +64,14 @@ std::vector<ShaderValue> texture_values(const std::vector<scene::Material>& mate
           {"texture_page_count", page_count}};
 }
 
+std::vector<ShaderValue> any_texture_values(uint32_t page_count) {
+  return {{"uses_metallic_roughness_texture", true},
+          {"uses_emissive_texture", true},
+          {"uses_anisotropy_texture", true},
+          {"uses_specular_texture", true},
+          {"texture_page_count", page_count}};
+}
+
 gpu::Image upload_page(gpu::Device& device, const scene::TexturePage& page) {
   gpu::Image image(device, {.format = page.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
                             .dimension = Dimension::d2,
@@ -196,8 +204,11 @@ void SceneResources::bind() {
   resources.emplace("texture_pages", pages);
   resources.emplace("environment_map", gpu::resource(environment_.front(), samplers_.equirectangular()));
   resources.emplace("environment_table", gpu::resource(environment_.back(), samplers_.clamp_linear()));
-  for (const auto& [name, present] : scene_.features.named()) bindings_.values.push_back({"has_" + name, present});
-  const std::vector<ShaderValue> textures = texture_values(scene_.materials, used_page_count_);
+  for (const auto& [name, present] : scene_.features.named())
+    bindings_.values.push_back({"has_" + name, present || options_.general});
+  const std::vector<ShaderValue> textures = options_.general
+                                                ? any_texture_values(static_cast<uint32_t>(texture_pages_.size()))
+                                                : texture_values(scene_.materials, used_page_count_);
   bindings_.values.insert(bindings_.values.end(), textures.begin(), textures.end());
   bindings_.static_triangles = range(0, scene_.static_triangle_count);
   bindings_.dynamic_triangles = range(scene_.static_triangle_count, scene_.triangles.size());

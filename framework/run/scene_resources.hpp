@@ -27,6 +27,7 @@ struct SceneResourceOptions {
   Extent3 view;
   uint32_t seed = 0;
   double frames_per_second = 30;
+  bool general = false;  ///< shaders see every feature, whatever the scene has
 };
 
 /// The scene on the device: uploaded once, but for what moves and the blocks of the frame, which are staged by
