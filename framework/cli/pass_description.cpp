@@ -8,6 +8,7 @@ namespace lightloom::cli {
 namespace {
 
 constexpr size_t kColumns = 100;
+constexpr const char* kOnHost = " Runs on the host.";
 
 std::string first_sentence(const std::string& doc) {
   const size_t end = doc.find(". ");
@@ -51,7 +52,10 @@ std::string shape_text(const Port& port) {
 /// What else there is to know of a port, in words.
 std::vector<std::string> port_notes(const Port& port) {
   std::vector<std::string> notes;
-  if (port.optional) notes.emplace_back("optional");
+  if (port.needed_with)
+    notes.emplace_back("optional; with params that do not need it, it counts as unconnected");
+  else if (port.optional)
+    notes.emplace_back("optional");
   if (port.array) notes.emplace_back("takes a history range @a..b");
   if (port.persistent) notes.emplace_back("kept from frame to frame");
   if (port.direction != Direction::out) return notes;
@@ -106,7 +110,8 @@ std::string cell(std::string text) {
 }
 
 void write_markdown(const PassType& type, std::string& text) {
-  text += "\n## " + type.name + "\n\n" + type.doc + "\n\n| port | | shape | what it is |\n| --- | --- | --- | --- |\n";
+  text += "\n## " + type.name + "\n\n" + type.doc + (type.host ? kOnHost : "") +
+          "\n\n| port | | shape | what it is |\n| --- | --- | --- | --- |\n";
   for (const Port& port : type.ports) {
     text += "| `" + port.name + "` | " + std::string(name_of(port.direction)) + " | " + shape_text(port) + " | " +
             cell(with_notes(port.doc, port_notes(port))) + " |\n";
@@ -130,6 +135,7 @@ nlohmann::ordered_json port_json(const Port& port) {
                                  {"dimension", port.dimension == Dimension::d3 ? 3 : 2},
                                  {"extent", extent_text(port)},
                                  {"optional", port.optional},
+                                 {"depends_on_params", static_cast<bool>(port.needed_with)},
                                  {"history_range", port.array},
                                  {"persistent", port.persistent},
                                  {"bypass", nullptr},
@@ -197,8 +203,8 @@ std::string list_passes(const PassRegistry& registry) {
 }
 
 std::string describe_pass(const PassType& type) {
-  std::string text =
-      type.name + " (version " + std::to_string(type.version) + ")\n\n" + wrap(type.doc, kColumns, 0) + "\n";
+  std::string text = type.name + " (version " + std::to_string(type.version) + ")\n\n" +
+                     wrap(type.doc + (type.host ? kOnHost : ""), kColumns, 0) + "\n";
   describe_ports(type, text);
   describe_params(type, text);
   return text;
@@ -219,7 +225,8 @@ nlohmann::ordered_json pass_json(const PassType& type) {
   for (const Port& port : type.ports) ports.push_back(port_json(port));
   nlohmann::ordered_json params = nlohmann::ordered_json::array();
   for (const Param& param : type.params) params.push_back(param_json(param));
-  return {{"type", type.name}, {"version", type.version}, {"doc", type.doc}, {"ports", ports}, {"params", params}};
+  return {{"type", type.name}, {"version", type.version}, {"doc", type.doc}, {"host", static_cast<bool>(type.host)},
+          {"ports", ports},    {"params", params}};
 }
 
 }  // namespace lightloom::cli

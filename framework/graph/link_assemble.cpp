@@ -109,7 +109,7 @@ class Assembler {
       if (!node.enabled()) {
         graph_.bypassed.push_back({node.spec->name, node.disabled});
       } else if (!needs_.live[i]) {
-        graph_.culled.push_back({node.spec->name, "no output, capture or side effect needs it"});
+        graph_.culled.push_back({node.spec->name, needs_.culled[i]});
       }
     }
   }

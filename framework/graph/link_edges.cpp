@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "framework/base/text.hpp"
 #include "framework/graph/link_state.hpp"
@@ -18,7 +19,12 @@ std::vector<std::string> part_names(const Port& port) {
   return names;
 }
 
-const ConnectionSpec* find_connection(const Node& node, std::string_view input) {
+bool dropped(const Node& node, const std::string& input) {
+  return std::find(node.dropped_inputs.begin(), node.dropped_inputs.end(), input) != node.dropped_inputs.end();
+}
+
+const ConnectionSpec* find_connection(const Node& node, const std::string& input) {
+  if (dropped(node, input)) return nullptr;
   for (const ConnectionSpec& connection : node.spec->inputs)
     if (connection.name == input) return &connection;
   return nullptr;
@@ -59,8 +65,7 @@ Wiring EdgeResolver::resolve(const GraphSpec& spec) {
 void EdgeResolver::check_node(uint32_t index, const std::vector<ResolvedInput>& inputs) {
   const Node& node = nodes_.list[index];
   for (const ConnectionSpec& connection : node.spec->inputs) {
-    const bool fell_away =
-        node.swapped_by && (node.type == nullptr || node.type->find_port(connection.name, Direction::in) == nullptr);
+    const bool fell_away = (node.swapped_by && node.type == nullptr) || dropped(node, connection.name);
     if (!fell_away) static_cast<void>(find_target(connection.edge, node.enabled()));
   }
   for (const ResolvedInput& input : inputs) {
@@ -95,6 +100,10 @@ ResolvedInput EdgeResolver::resolve_input(uint32_t index, const Port& port) {
       break;
     }
     input.sources.push_back(found.source);
+  }
+  if (port.needed_with && !port.needed_with(node.resolved)) {
+    input.state = Connection::unneeded;
+    input.ignored = std::exchange(input.sources, {});
   }
   return input;
 }

@@ -56,6 +56,33 @@ void find_captures(const Nodes& nodes, const std::vector<std::string>& globs, Ne
     if (captured[i]) needs.captures.push_back(images[i].image);
 }
 
+/// Where a pass that is not needed leads to an input that its consumer's params make it ignore, that is why.
+void explain_culled(const Nodes& nodes, const Wiring& wiring, Needs& needs) {
+  needs.culled.resize(nodes.list.size());
+  std::vector<uint32_t> open;
+  const auto explain = [&](uint32_t node, const std::string& why) {
+    if (needs.live[node] || !needs.culled[node].empty()) return;
+    needs.culled[node] = why;
+    open.push_back(node);
+  };
+  for (uint32_t i = 0; i < nodes.list.size(); ++i)
+    for (const ResolvedInput& input : wiring.inputs[i])
+      for (const Source& source : input.ignored)
+        if (needs.live[i] && !source.constant)
+          explain(source.image.node, "only input '" + input.port->name + "' of '" + nodes.list[i].spec->name +
+                                         "' leads to it, which with its params does not read that");
+  while (!open.empty()) {
+    const uint32_t node = open.back();
+    open.pop_back();
+    for (const ResolvedInput& input : wiring.inputs[node])
+      for (const std::vector<Source>* sources : {&input.sources, &input.ignored})
+        for (const Source& source : *sources)
+          if (!source.constant) explain(source.image.node, needs.culled[node]);
+  }
+  for (uint32_t i = 0; i < nodes.list.size(); ++i)
+    if (!needs.live[i] && needs.culled[i].empty()) needs.culled[i] = "no output, capture or side effect needs it";
+}
+
 }  // namespace
 
 Needs find_needs(const Nodes& nodes, const Wiring& wiring, const LinkOptions& options, Report& report,
@@ -81,6 +108,7 @@ Needs find_needs(const Nodes& nodes, const Wiring& wiring, const LinkOptions& op
       for (const Source& source : input.sources)
         if (!source.constant) need(source.image.node);
   }
+  explain_culled(nodes, wiring, needs);
   return needs;
 }
 

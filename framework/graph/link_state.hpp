@@ -34,6 +34,8 @@ struct Node {
   std::string disabled;  ///< why; empty: enabled
   SourceLocation disabled_where;
   std::vector<ScalarSpec> params;
+  std::vector<std::string> swapped_params;  ///< names of params that were given before a swap …
+  std::vector<std::string> dropped_inputs;  ///< … and of inputs that the new type cannot take
   ParamSet resolved;
   [[nodiscard]] bool enabled() const { return disabled.empty(); }
 };
@@ -73,6 +75,7 @@ struct Source {
 enum class Connection : uint8_t {
   connected,
   absent,     ///< no edge
+  unneeded,   ///< the edge is sound, but with these params the pass does not read it (Port::needed_with)
   no_bypass,  ///< the edge leads to a disabled pass that has nothing in place of its output
   broken,     ///< reported
 };
@@ -82,6 +85,7 @@ struct ResolvedInput {
   const EdgeSpec* edge = nullptr;
   Connection state = Connection::absent;
   std::vector<Source> sources;  ///< one a part if connected
+  std::vector<Source> ignored;  ///< the same if unneeded
   ImageRef culprit;             ///< no_bypass: what is missing
 };
 
@@ -100,6 +104,10 @@ struct Wiring {
 
 /// link_variants.cpp: nodes from the file, with its variants checked and the chosen ones and the options applied.
 [[nodiscard]] Nodes make_nodes(const Input& input, Report& report, std::vector<std::string>& notes);
+
+/// link_swap.cpp: a swapped type keeps those of its predecessor's params and inputs that have the same name and kind;
+/// the others are taken from the node, with a note each.
+void drop_misfits(Node& node, const Nodes& nodes, const PassRegistry& registry, std::vector<std::string>& notes);
 
 /// link_params.cpp: fills Node::resolved.
 void resolve_params(Nodes& nodes, Report& report);
@@ -173,6 +181,7 @@ class ShapeResolver {
 /// link_needs.cpp: which nodes run, and what is captured.
 struct Needs {
   std::vector<bool> live;
+  std::vector<std::string> culled;  ///< why a node that is not live is not needed; empty for others
   std::vector<ImageRef> captures;
 };
 [[nodiscard]] Needs find_needs(const Nodes& nodes, const Wiring& wiring, const LinkOptions& options, Report& report,

@@ -86,6 +86,8 @@ class Editor {
     for (Node* node : match(entry.pass.text, entry.pass.where)) {
       node->type = type;
       node->swapped_by = by;
+      node->swapped_params.clear();
+      for (const ScalarSpec& param : node->params) node->swapped_params.push_back(param.name);
     }
   }
 
@@ -139,6 +141,7 @@ class Editor {
       ScalarSpec value = entry;
       if (text && param->type == ParamType::choice) value.value = *text;
       std::erase_if(node->params, [&](const ScalarSpec& old) { return old.name == entry.name; });
+      std::erase(node->swapped_params, entry.name);
       node->params.push_back(std::move(value));
     }
     if (!found && !matches.empty())
@@ -215,17 +218,6 @@ Nodes nodes_of_file(const Input& input, Report& report) {
   return nodes;
 }
 
-/// A swapped type keeps what it knows of its predecessor's params and inputs.
-void drop_unknown(Node& node, std::vector<std::string>& notes) {
-  if (!node.swapped_by || node.type == nullptr) return;
-  const std::string which = *node.swapped_by + " makes '" + node.spec->name + "' a '" + node.type->name + "', without ";
-  for (const ScalarSpec& param : node.params)
-    if (node.type->find_param(param.name) == nullptr) notes.push_back(which + "param '" + param.name + "'");
-  for (const ConnectionSpec& connection : node.spec->inputs)
-    if (node.type->find_port(connection.name, Direction::in) == nullptr)
-      notes.push_back(which + "input '" + connection.name + "'");
-}
-
 }  // namespace
 
 Nodes make_nodes(const Input& input, Report& report, std::vector<std::string>& notes) {
@@ -236,6 +228,8 @@ Nodes make_nodes(const Input& input, Report& report, std::vector<std::string>& n
     names.push_back(variant.name);
     Nodes tried = nodes;
     Editor(tried, input, report).variant(variant);
+    std::vector<std::string> unsaid;
+    for (Node& node : tried.list) drop_misfits(node, tried, input.registry, unsaid);
     resolve_params(tried, report);
   }
   Editor editor(nodes, input, report);
@@ -249,7 +243,7 @@ Nodes make_nodes(const Input& input, Report& report, std::vector<std::string>& n
     }
   }
   editor.options(input.options);
-  for (Node& node : nodes.list) drop_unknown(node, notes);
+  for (Node& node : nodes.list) drop_misfits(node, nodes, input.registry, notes);
   return nodes;
 }
 

@@ -38,6 +38,103 @@ TEST(Swap, KeepsWhatTheNewTypeKnowsAndCullsTheRest) {
   EXPECT_NE(graph.notes[0].find("input 'y'"), std::string::npos);
 }
 
+bool any_note(const Graph& graph, const std::string& text) {
+  return std::any_of(graph.notes.begin(), graph.notes.end(),
+                     [&](const std::string& note) { return note.find(text) != std::string::npos; });
+}
+
+TEST(Swap, DropsParamsAndInputsOfAnotherKindWithANote) {
+  const std::string text = file(kSource + R"(, "e": {"type": "source"},
+           "f": {"type": "filter", "in": {"x": "s.a", "y": "e.a"}, "params": {"strength": 3}},
+           "b": {"type": "blur", "in": {"x": "s.a"}, "params": {"strength": "$s", "taps": 7}})",
+                                R"("o": "f.a", "p": "b.a")", R"("params": {"s": 2},)");
+  LinkOptions options;
+  options.swaps = {{"f", "strange"}, {"b", "strange"}};
+  const Graph graph = graph_of(text, options);
+  EXPECT_EQ(toy::pass(graph, "f").params.choice("strength"), "weak");
+  EXPECT_EQ(toy::pass(graph, "b").params.choice("strength"), "weak");
+  EXPECT_EQ(toy::pass(graph, "b").params.real("taps"), 7.0) << "an integer is a real number, too";
+  EXPECT_EQ(toy::source(graph, "f", "y", "u"), "");
+  EXPECT_EQ(culled(graph), Names{"e"});
+  ASSERT_EQ(graph.notes.size(), 3U);
+  EXPECT_TRUE(any_note(graph, "makes 'f' a 'strange', without param 'strength', which is of another kind there"));
+  EXPECT_TRUE(any_note(graph, "makes 'b' a 'strange', without param 'strength', which is of another kind there"));
+  EXPECT_TRUE(any_note(graph, "makes 'f' a 'strange', without input 'y', which is of another kind there"));
+  options.sets = {{"f.strength", "strong"}};
+  EXPECT_EQ(toy::pass(graph_of(text, options), "f").params.choice("strength"), "strong");
+  options.sets = {{"f.strength", "3"}};
+  EXPECT_EQ(link_text(text, options).codes(), Names{"unknown-choice"}) << "what is set for the new type must fit it";
+}
+
+TEST(Swap, DropsParamsThatTheNewTypeLacksWithANote) {
+  LinkOptions options;
+  options.swaps = {{"b", "filter"}};
+  const std::string text =
+      file(kSource + R"(, "b": {"type": "blur", "in": {"x": "s.a"}, "params": {"strength": 2, "taps": 7}})",
+           R"("o": "b.a")", R"("variants": {"v": {"swap": {"b": "choosy"}, "set": {"b.reading": "both"}}},)");
+  const Graph graph = graph_of(text, options);
+  EXPECT_EQ(toy::pass(graph, "b").params.real("strength"), 2.0);
+  ASSERT_EQ(graph.notes.size(), 1U);
+  EXPECT_TRUE(any_note(graph, "without param 'taps'"));
+  options.variants = {"v"};
+  const Graph twice = graph_of(text, options);
+  EXPECT_EQ(toy::pass(twice, "b").type->name, "filter");
+  EXPECT_EQ(toy::pass(twice, "b").params.real("strength"), 2.0);
+  EXPECT_TRUE(any_note(twice, "without param 'reading'"));
+}
+
+TEST(NeededWith, AnInputThatParamsDoNotNeedCountsAsUnconnected) {
+  const std::string text = file(kSource + R"(, "e": {"type": "source"}, "g": {"type": "blur", "in": {"x": "e.a"}},
+           "h": {"type": "small"},
+           "c": {"type": "choosy", "in": {"x": "s.a", "y": "g.a"}})",
+                                R"("o": "c.a")");
+  const Graph graph = graph_of(text);
+  EXPECT_EQ(toy::source(graph, "c", "y"), "");
+  EXPECT_EQ(toy::pass(graph, "c").unconnected, Names{"y"});
+  EXPECT_EQ(culled(graph), (Names{"e", "g", "h"}));
+  const std::string why = "only input 'y' of 'c' leads to it, which with its params does not read that";
+  EXPECT_EQ(graph.culled[0].reason, why);
+  EXPECT_EQ(graph.culled[1].reason, why);
+  EXPECT_EQ(graph.culled[2].reason, "no output, capture or side effect needs it");
+  LinkOptions options;
+  options.sets = {{"c.reading", "both"}};
+  const Graph both = graph_of(text, options);
+  EXPECT_EQ(toy::source(both, "c", "y"), "g.a");
+  EXPECT_EQ(culled(both), Names{"h"});
+  options.sets.clear();
+  options.captures = {"g.a"};
+  EXPECT_EQ(culled(graph_of(text, options)), Names{"h"}) << "who looks at it needs it";
+}
+
+TEST(NeededWith, ItsEdgeIsStillChecked) {
+  const auto codes = [](const std::string& edge) {
+    return link_text(file(kSource + R"(, "i": {"type": "ids"}, "c": {"type": "choosy", "in": {"x": "s.a", "y": ")" +
+                              edge + R"("}})",
+                          R"("o": "c.a")"))
+        .codes();
+  };
+  EXPECT_EQ(codes("s.a"), Names{});
+  EXPECT_EQ(codes("q.a"), Names{"unknown-pass"});
+  EXPECT_EQ(codes("s.b"), Names{"unknown-port"});
+  EXPECT_EQ(codes("i.a"), Names{"numeric-mismatch"});
+}
+
+TEST(NeededWith, TheHistoryOfWhatIsNotNeededIsNotKept) {
+  const Graph graph =
+      graph_of(file(kSource + R"(, "c": {"type": "choosy", "in": {"x": "s.a", "y": "s.a@3"}})", R"("o": "c.a")"));
+  for (const Value& value : graph.values) EXPECT_EQ(value.history, 0U);
+}
+
+TEST(NeededWith, ASwapMayTakeTheNeedAway) {
+  const std::string text = file(kSource + R"(, "e": {"type": "source"},
+           "f": {"type": "filter", "in": {"x": "s.a", "y": "e.a"}})",
+                                R"("o": "f.a")");
+  LinkOptions options;
+  options.swaps = {{"f", "choosy"}};
+  EXPECT_EQ(culled(graph_of(text, options)), Names{"e"});
+  EXPECT_EQ(culled(graph_of(text)), Names{});
+}
+
 TEST(Swap, ReportsInputsThatTheNewTypeNeeds) {
   LinkOptions options;
   options.swaps = {{"f", "mix"}};

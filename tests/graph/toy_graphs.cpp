@@ -131,6 +131,13 @@ void add_filters(PassRegistry& types) {
   types.add(type("pick", {pair(input("p")), output("a", ExtentRule::like, "p")}));
   types.add(type("shade", {input("x", Access::fragment_sampled_read), attachment(like)}));
   types.add(type("carve", {volume(input("v")), volume(bypassed(output("v", ExtentRule::like, "v"), "v"))}));
+  Port choosy = optional;
+  choosy.needed_with = [](const ParamSet& params) { return params.choice("reading") == "both"; };
+  types.add(type("choosy", {input("x"), choosy, bypassed(like, "x")},
+                 {{"reading", ParamType::choice, std::string("one"), {}, {}, {"one", "both"}, "", ""}}));
+  types.add(type("strange", {input("x"), pair(optional), bypassed(like, "x")},
+                 {{"strength", ParamType::choice, std::string("weak"), {}, {}, {"weak", "strong"}, "", ""},
+                  {"taps", ParamType::real, 1.0, 0, 10, {}, "", ""}}));
   PassType sink = type("sink", {input("x"), scratch("log", ExtentRule::like, "x", Access::compute_storage_write)});
   sink.side_effect = true;
   types.add(sink);

@@ -13,15 +13,27 @@
 namespace lightloom::toy {
 
 /// Pass types made up for the tests, small enough to be seen at a glance; inputs -> outputs:
-///   source () -> a [view]            params level 0..1, count 1..8, mode one|two, flag
-///   small () -> a [trace]            ids () -> a [view, uint]        these and raster, volume: another in each frame
-///   still () -> a [view]             the same in each frame         body () -> a [view]   param geometry
-///   static|dynamic patch (x) -> a, bypass x         a and its scratch memo are persistent filter (x, y?) -> a, bypass
-///   x    param strength       blur (x) -> a, bypass x   param strength, taps mix (x, y like x) -> a           scratch
-///   tmp          black (x) -> a, bypass constant trail (x, past[]) -> a, bypass x                      accumulate (x,
-///   last like x) -> a, bypass x raster () -> p {u, v} [view]     attachments, scratch depth pairs (p) -> p, bypass p
-///   pick (p) -> a        shade (x) -> a   read and written by the fragment stage volume () -> v [grid] param
-///   resolution     carve (v) -> v, bypass v sink (x) -> nothing, side effect
+///   source () -> a [view]                       params level 0..1, count 1..8, mode one|two, flag
+///   small () -> a [trace]                       these and ids, raster, volume: another in each frame
+///   ids () -> a [view, uint]
+///   still () -> a [view]                        the same in each frame
+///   body () -> a [view]                         param geometry static|dynamic
+///   patch (x) -> a, bypass x                    a and its scratch memo are persistent
+///   filter (x, y?) -> a, bypass x               param strength
+///   choosy (x, y?) -> a, bypass x               param reading one|both: with one it does not need y
+///   strange (x, y? {u, v}) -> a, bypass x       params strength weak|strong and taps, a real
+///   blur (x) -> a, bypass x                     params strength, taps
+///   mix (x, y like x) -> a                      scratch tmp
+///   black (x) -> a, bypass constant
+///   trail (x, past[]) -> a, bypass x
+///   accumulate (x, last like x) -> a, bypass x
+///   raster () -> p {u, v} [view]                attachments, scratch depth
+///   pairs (p) -> p, bypass p
+///   pick (p) -> a
+///   shade (x) -> a                              read and written by the fragment stage
+///   volume () -> v [grid]                       param resolution
+///   carve (v) -> v, bypass v
+///   sink (x) -> nothing, side effect
 [[nodiscard]] const PassRegistry& registry();
 
 struct Result {
