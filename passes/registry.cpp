@@ -1,5 +1,6 @@
 #include "passes/registry.hpp"
 
+#include "passes/accumulate.hpp"
 #include "passes/box_blur.hpp"
 #include "passes/denoise_radial.hpp"
 #include "passes/distance_transform.hpp"
@@ -27,6 +28,7 @@ void register_builtin_passes(PassRegistry& registry) {
   registry.add(make_resample_surface());
   registry.add(make_voxel_path_trace());
   registry.add(make_temporal_accumulate());
+  registry.add(make_accumulate());
   registry.add(make_denoise_radial());
   registry.add(make_box_blur());
   registry.add(make_upsample());
