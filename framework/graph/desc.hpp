@@ -24,7 +24,7 @@ enum class ExtentRule : uint8_t {
   view,   ///< the graph's `view` size
   trace,  ///< the graph's `trace` size
   grid,   ///< the voxel grid of the scene at the node's integer param `resolution`
-  like,   ///< same as the input port named in `Port::like`
+  like,   ///< same as the input port named in `Port::like`; the view's where that one is optional and unconnected
   fixed,  ///< `Port::fixed_extent`, whatever the scene and the graph
 };
 

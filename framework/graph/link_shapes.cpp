@@ -70,8 +70,10 @@ std::optional<Extent3> ShapeResolver::by_rule(uint32_t index, const Port& port) 
     case ExtentRule::like:
       break;
   }
-  const ResolvedInput model = edges_.resolve_input(index, *node.type->find_port(port.like, Direction::in));
+  const Port& like = *node.type->find_port(port.like, Direction::in);
+  const ResolvedInput model = edges_.resolve_input(index, like);
   if (model.state == Connection::connected) return extent_of(model.sources.front().image);
+  if (like.optional && model.state != Connection::broken) return view_;
   // An enabled pass's missing or broken input has been reported as such.
   if (!node.enabled() && model.state != Connection::broken)
     report_.error("unknown-shape", node.spec->where,

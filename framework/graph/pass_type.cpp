@@ -88,7 +88,8 @@ class TableCheck {
     if (port.extent != ExtentRule::like) return;
     const Port* model = type_.find_port(port.like, Direction::in);
     require(model != nullptr && model != &port, which + "is like '" + port.like + "', which is no other input");
-    require(!model->optional, which + "is like '" + port.like + "', which may be unconnected");
+    require(!model->optional || port.direction != Direction::in,
+            which + "is an input like '" + port.like + "', which may be unconnected");
   }
 
   void check_bypass(const Port& port, const std::string& which) const {
