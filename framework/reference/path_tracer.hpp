@@ -124,7 +124,7 @@ class PathTracer {
                                       random.pair(index, Decision::environment_point)));
     if (!lights_.punctual.empty())
       add(light, vertex, false,
-          lights_.punctual.sample(vertex.surface().origin, random.pair(index, Decision::punctual).x));
+          lights_.punctual.sample(vertex.surface().position, random.pair(index, Decision::punctual).x));
     return light;
   }
 

@@ -10,7 +10,7 @@ namespace {
 
 /// How far rays start from a surface, in units of the rounding of the coordinates that the distance to it is computed
 /// from: those of the point and of the triangle's edges.
-constexpr float kRoundings = 16 * 0x1p-23f;
+constexpr float kRoundings = 4 * 0x1p-23f;
 
 /// A shadow ray ends this part of its length before the light.
 constexpr float kShortened = 1 - 0x1p-20f;

@@ -244,8 +244,14 @@ FrameConditions SceneResources::prepare(uint32_t frame) {
   const uint32_t history_length = std::min(static_cast<uint32_t>(views_.size()), kHistoryLimit - 1);
   scene::Camera camera = pose_.cameras.at(camera_);
   if (options_.camera_path) camera = scene::camera_on_path(*options_.camera_path, time, camera);
-  frame_scene_ = {
-      .scene = &scene_, .pose = &pose_, .camera = camera, .time = time, .frame = frame, .seed = options_.seed};
+  frame_scene_ = {.scene = &scene_,
+                  .pose = &pose_,
+                  .camera = camera,
+                  .view_width = options_.view.width,
+                  .view_height = options_.view.height,
+                  .time = time,
+                  .frame = frame,
+                  .seed = options_.seed};
   views_.push_front(view_of(camera, options_.view, scene_.bounds));
   if (views_.size() > kHistoryLimit) views_.pop_back();
   newest_slot_ = (newest_slot_ + 1) % kHistoryLimit;

@@ -75,6 +75,27 @@ TEST(Link, ShapesFollowTheirRules) {
   EXPECT_EQ(to_string(graph.view), "10x20");
 }
 
+TEST(Link, AnOutputLikeAnOptionalInputIsAsLargeAsTheViewWithoutIt) {
+  PassRegistry types = toy::registry();
+  PassType maybe = *types.find("filter");
+  maybe.name = "maybe";
+  maybe.ports[0].optional = true;
+  types.add(maybe);
+  LinkOptions options;
+  options.view = {10, 20};
+  const Graph graph = graph_of(file(R"("t": {"type": "small"}, "m": {"type": "maybe", "in": {"x": "t.a"}},
+      "n": {"type": "maybe"}, "d": {"type": "maybe", "in": {"x": "n.a"}})",
+                                    R"("o": "m.a", "p": "n.a", "q": "d.a")"),
+                               options, types);
+  const auto extent = [&](const char* name) {
+    return graph.values[toy::pass(graph, name).outputs.front().value].desc.extent;
+  };
+  EXPECT_NE(extent("m"), (Extent3{10, 20, 1}));
+  EXPECT_EQ(extent("m"), graph.values[toy::pass(graph, "t").outputs.front().value].desc.extent);
+  EXPECT_EQ(extent("n"), (Extent3{10, 20, 1}));
+  EXPECT_EQ(extent("d"), (Extent3{10, 20, 1}));
+}
+
 TEST(Link, RingsHoldTheOldestAgeThatIsRead) {
   const Graph graph = graph_of(file(kSource + R"(, "f": {"type": "filter", "in": {"x": "s.a@2"}},
       "t": {"type": "trail", "in": {"x": "f.a", "past": "s.a@1..5"}})",

@@ -70,7 +70,14 @@ TEST(PassRegistry, RefusesTablesThatContradictThemselves) {
        }},
       {"like nothing", [](PassType& t) { t.ports[1].like.clear(); }},
       {"like no input", [](PassType& t) { t.ports[1].like = "z"; }},
-      {"like an optional input", [](PassType& t) { t.ports[0].optional = true; }},
+      {"input like an optional input",
+       [](PassType& t) {
+         t.ports[0].optional = true;
+         t.ports.push_back(t.ports[0]);
+         t.ports[2].name = "y";
+         t.ports[2].extent = ExtentRule::like;
+         t.ports[2].like = "x";
+       }},
       {"like without rule", [](PassType& t) { t.ports[1].extent = ExtentRule::view; }},
       {"bypass by no input", [](PassType& t) { t.ports[1].bypass->input = "z"; }},
       {"bypass of other class", [](PassType& t) { t.ports[0].parts[0].format = Format::r32_uint; }},
