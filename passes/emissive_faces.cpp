@@ -27,7 +27,7 @@ std::vector<Port> ports() {
       fixed_image("faces", Direction::out, Format::rg32_uint, kListExtent, Access::compute_storage_write,
                   "the list, in rows. Texel 0: number of faces; sum of their weights. Texel i: y << 21 | x << "
                   "12 | z << 3 | face (0 to 5: -x, +x, -y, +y, -z, +z); sum of the weights up to and including "
-                  "this face. What follows the last face means nothing");
+                  "this face. What follows the last face is 0");
   faces.bypass = Bypass{};
   Port power = fixed_image("power", Direction::out, Format::r32_uint, kPowerExtent, Access::compute_storage_read_write,
                            "by emission index: 512 times the power of all its exposed faces over that of one which "
@@ -43,6 +43,9 @@ void record(PassContext& context) {
   const Extent3 grid = context.input_extent("voxels");
   const Extent3 columns{grid.width, grid.height, 1};
   context.clear("power", {0, 0, 0, 0});
+  // What the list does not fill must not be what was in the memory before.
+  context.clear("faces", {0, 0, 0, 0});
+  context.clear("columns", {0, 0, 0, 0});
   context.dispatch({"emissive_faces.comp", columns, {{"writing", false}}});
   context.dispatch({"emissive_faces_scan.comp", {1, 1, 1}, {}});
   context.dispatch({"emissive_faces.comp", columns, {{"writing", true}}});

@@ -28,6 +28,7 @@ struct RenderOptions {
   double frames_per_second = 30;
   std::string dump_format = "exr";
   std::string device;
+  bool no_alias = false;
   bool validate = false;
 };
 
@@ -42,6 +43,7 @@ run::RenderRequest make_request(const RenderOptions& options, const CommandConte
   request.camera = options.camera;
   request.camera_path = options.camera_path;
   request.dump_format = options.dump_format == "npy" ? run::DumpFormat::npy : run::DumpFormat::exr;
+  request.share_memory = !options.no_alias;
   request.seed = options.seed;
   request.first_frame = options.frames.first;
   request.last_frame = options.frames.last;
@@ -126,6 +128,10 @@ void add_render_command(Command& program, const CommandContext& context, const s
       .default_text("out/ and the graph file's name");
   command.option("--device", options->device, "Device by index or part of its name; 'lightloom devices' lists them")
       .placeholder("NAME");
+  command.flag(
+      "--no-alias", options->no_alias,
+      "Give every value memory of its own, also those that are not live at the same time; the pictures are the "
+      "same");
   command.flag("--validate", options->validate, "Check each Vulkan call by the validation layers (slow)");
   command.action([options, &context, arguments] { return render(*options, context, arguments); });
 }

@@ -73,22 +73,36 @@ void check_limits(const Device& device, const ImageSpec& spec) {
 }  // namespace
 
 Image::Image(const Device& device, const ImageSpec& spec) : spec_(spec) {
-  check_limits(device, spec);
-  const std::string owner = describe(spec);
-  const VkImageCreateInfo info = create_info(spec);
-  VkImage image = VK_NULL_HANDLE;
-  check(vkCreateImage(device.get(), &info, nullptr, &image), "vkCreateImage for " + owner);
-  image_ = ImageHandle(device.get(), image);
-  device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(image), spec.name);
+  create(device);
+  bind_own(device);
+}
 
-  VkMemoryRequirements requirements{};
-  vkGetImageMemoryRequirements(device.get(), image, &requirements);
-  memory_bytes_ = requirements.size;
+Image Image::unbound(const Device& device, const ImageSpec& spec) {
+  Image image(spec);
+  image.create(device);
+  return image;
+}
+
+void Image::create(const Device& device) {
+  check_limits(device, spec_);
+  const VkImageCreateInfo info = create_info(spec_);
+  VkImage image = VK_NULL_HANDLE;
+  check(vkCreateImage(device.get(), &info, nullptr, &image), "vkCreateImage for " + describe(spec_));
+  image_ = ImageHandle(device.get(), image);
+  device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(image), spec_.name);
+  vkGetImageMemoryRequirements(device.get(), image, &requirements_);
+}
+
+void Image::bind_own(const Device& device) {
   VkMemoryDedicatedAllocateInfo dedicated{};
   dedicated.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO;
-  dedicated.image = image;
-  memory_ = allocate_memory(device, requirements, MemoryKind::device, owner, dedicated);
-  check(vkBindImageMemory(device.get(), image, memory_.get(), 0), "vkBindImageMemory for " + owner);
+  dedicated.image = image_.get();
+  memory_ = allocate_memory(device, requirements_, MemoryKind::device, describe(spec_), dedicated);
+  bind(device, memory_.get(), 0);
+}
+
+void Image::bind(const Device& device, VkDeviceMemory memory, VkDeviceSize offset) {
+  check(vkBindImageMemory(device.get(), image_.get(), memory, offset), "vkBindImageMemory for " + describe(spec_));
   make_views(device);
 }
 

@@ -26,12 +26,19 @@ struct ImageView {
   VkFormat format = VK_FORMAT_UNDEFINED;
 };
 
-/// An image with its own memory, in layout UNDEFINED after construction.
+/// An image in layout UNDEFINED after construction.
 class Image {
  public:
-  /// Throws Error(run_failed) for a shape or format that the device cannot do and when memory runs out; it names the
-  /// image, the limit and the bytes asked.
+  /// An image with its own memory. Throws Error(run_failed) for a shape or format that the device cannot do and when
+  /// memory runs out; it names the image, the limit and the bytes asked.
   Image(const Device& device, const ImageSpec& spec);
+
+  /// An image without memory: `bind_own` or `bind` must follow before anything else but `requirements`.
+  [[nodiscard]] static Image unbound(const Device& device, const ImageSpec& spec);
+  [[nodiscard]] const VkMemoryRequirements& requirements() const { return requirements_; }
+  void bind_own(const Device& device);
+  /// Binds to a part of `memory`, which must outlive the image.
+  void bind(const Device& device, VkDeviceMemory memory, VkDeviceSize offset);
 
   [[nodiscard]] VkImage get() const { return image_.get(); }
   [[nodiscard]] const ImageSpec& spec() const { return spec_; }
@@ -42,15 +49,17 @@ class Image {
   [[nodiscard]] ImageView array_view() const;
   /// One layer of a 2D image as a 2D view of mip level 0: for attachments, storage, and reading one age of a ring.
   [[nodiscard]] ImageView layer_view(uint32_t layer) const;
-  [[nodiscard]] VkDeviceSize memory_bytes() const { return memory_bytes_; }
+  [[nodiscard]] VkDeviceSize memory_bytes() const { return requirements_.size; }
 
  private:
+  explicit Image(const ImageSpec& spec) : spec_(spec) {}
+  void create(const Device& device);
   void make_views(const Device& device);
   [[nodiscard]] ImageViewHandle make_view(const Device& device, VkImageViewType type, uint32_t layer, uint32_t layers,
                                           uint32_t mips) const;
 
   ImageSpec spec_;
-  VkDeviceSize memory_bytes_ = 0;
+  VkMemoryRequirements requirements_{};
   MemoryHandle memory_;
   ImageHandle image_;
   ImageViewHandle full_handle_;

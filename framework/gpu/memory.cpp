@@ -84,8 +84,10 @@ std::string bytes_text(uint64_t bytes) {
   return std::string(text.data()) + " (" + exact + ")";
 }
 
-MemoryHandle allocate_memory(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
-                             const std::string& owner, const VkMemoryDedicatedAllocateInfo& dedicated) {
+namespace {
+
+MemoryHandle allocate(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
+                      const std::string& owner, const VkMemoryDedicatedAllocateInfo* dedicated) {
   const std::string need = owner + " needs " + bytes_text(requirements.size);
   const uint64_t limit = device.info().max_allocation_bytes;
   if (limit != 0 && requirements.size > limit) {
@@ -96,7 +98,7 @@ MemoryHandle allocate_memory(const Device& device, const VkMemoryRequirements& r
   }
   VkMemoryAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-  info.pNext = &dedicated;
+  info.pNext = dedicated;
   info.allocationSize = requirements.size;
   info.memoryTypeIndex = choose_type(device, requirements, kind, owner);
   const VkMemoryHeap& heap = device.memory().memoryHeaps[device.memory().memoryTypes[info.memoryTypeIndex].heapIndex];
@@ -116,6 +118,18 @@ MemoryHandle allocate_memory(const Device& device, const VkMemoryRequirements& r
   }
   check(result, "vkAllocateMemory for " + owner);
   return MemoryHandle(device.get(), memory);
+}
+
+}  // namespace
+
+MemoryHandle allocate_memory(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
+                             const std::string& owner, const VkMemoryDedicatedAllocateInfo& dedicated) {
+  return allocate(device, requirements, kind, owner, &dedicated);
+}
+
+MemoryHandle allocate_memory(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
+                             const std::string& owner) {
+  return allocate(device, requirements, kind, owner, nullptr);
 }
 
 }  // namespace lightloom::gpu

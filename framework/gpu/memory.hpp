@@ -21,6 +21,9 @@ enum class MemoryKind : uint8_t {
 [[nodiscard]] MemoryHandle allocate_memory(const Device& device, const VkMemoryRequirements& requirements,
                                            MemoryKind kind, const std::string& owner,
                                            const VkMemoryDedicatedAllocateInfo& dedicated);
+/// The same for memory that several resources share.
+[[nodiscard]] MemoryHandle allocate_memory(const Device& device, const VkMemoryRequirements& requirements,
+                                           MemoryKind kind, const std::string& owner);
 
 /// Memory that images of the device can still have [bytes]: what the driver's budget leaves (VK_EXT_memory_budget),
 /// else the largest heap of device memory. For a CPU device it is the host's free memory: a heap of lavapipe says 2 GiB

@@ -26,6 +26,9 @@ struct Barrier {
   Hazard hazard = Hazard::read_after_write;
   bool previous_frame = false;  ///< what it waits for was recorded in an earlier frame
   std::string reason;
+  /// The value takes memory from others (share_memory.hpp): `from` is a use of theirs, and what the image held before
+  /// is undefined after it.
+  bool takes_over = false;
 };
 
 /// Observation of a value: copied to a read-back buffer as soon as it is there, so that nothing lives longer for it.

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "framework/base/hash.hpp"
 #include "framework/graph/plan.hpp"
 
@@ -79,8 +81,11 @@ class PlanHasher {
   }
 
   void barriers(const std::vector<Barrier>& list) {
-    hasher_.number(list.size());
+    // Who shares memory with whom is the device's affair, not the graph's.
+    const auto counts = [](const Barrier& barrier) { return !barrier.takes_over; };
+    hasher_.number(static_cast<uint64_t>(std::count_if(list.begin(), list.end(), counts)));
     for (const Barrier& barrier : list) {
+      if (!counts(barrier)) continue;
       value(barrier.value);
       hasher_.number(static_cast<uint64_t>(barrier.from));
       hasher_.number(static_cast<uint64_t>(barrier.to));

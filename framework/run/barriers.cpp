@@ -1,12 +1,16 @@
 #include "framework/run/barriers.hpp"
 
+#include <algorithm>
+
 namespace lightloom::run {
 
 void record_barriers(VkCommandBuffer commands, std::span<const Barrier> barriers) {
-  if (barriers.empty()) return;
+  const auto everywhere = [](const Barrier& barrier) { return !barrier.takes_over; };
+  if (std::none_of(barriers.begin(), barriers.end(), everywhere)) return;
   VkMemoryBarrier2 memory{};
   memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
   for (const Barrier& barrier : barriers) {
+    if (!everywhere(barrier)) continue;
     const AccessInfo& from = access_info(barrier.from);
     const AccessInfo& to = access_info(barrier.to);
     memory.srcStageMask |= from.stages;

@@ -18,7 +18,7 @@ uint32_t query_count(size_t steps) {
 Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, const ExecutorOptions& options)
     : device_(device),
       plan_(std::move(plan)),
-      images_(device, plan_),
+      images_(device, plan_, options.share_memory),
       readback_(device, plan_),
       host_passes_(device, plan_),
       scene_(device, scene,
@@ -76,6 +76,7 @@ void Executor::record_steps(gpu::CommandSession& session, const std::vector<Plan
   for (const PlanStep& step : steps) {
     const GraphPass& pass = plan_.graph.passes[step.pass];
     record_barriers(session.get(), step.barriers);
+    images_.record_takeovers(session.get(), step.barriers);
     record_timestamp(session.get(), query++);
     if (pass.type->host)
       run_host_pass(session, pass);

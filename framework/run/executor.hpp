@@ -28,6 +28,7 @@ struct ExecutorOptions {
   std::optional<scene::CameraPath> camera_path = std::nullopt;  ///< moves the camera instead of what the scene says
   uint32_t seed = 0;
   double frames_per_second = 30;  ///< animation time of frame f is f / frames_per_second
+  bool share_memory = true;       ///< values that are not live at the same time share memory
   /// What host passes derive from the scene, to be shared by executors on the same one; empty: the executor's own.
   std::shared_ptr<SceneMemo> memo = nullptr;
 };
@@ -45,6 +46,7 @@ class Executor {
   /// What had to be changed in the scene for the device.
   [[nodiscard]] const std::vector<std::string>& scene_warnings() const { return scene_.warnings(); }
   [[nodiscard]] const Plan& plan() const { return plan_; }
+  [[nodiscard]] const MemorySharing& memory_sharing() const { return images_.sharing(); }
   /// Device memory of all values with their rings [bytes].
   [[nodiscard]] uint64_t value_bytes() const { return images_.bytes(); }
 

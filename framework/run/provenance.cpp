@@ -145,6 +145,14 @@ Json graph_record(const Plan& plan) {
           {"memory", {{"values_bytes", memory.total}, {"history_rings_bytes", memory.rings}}}};
 }
 
+Json sharing_records(const MemorySharing& sharing) {
+  Json records = Json::array();
+  for (const SharedHeap& heap : sharing.heaps)
+    records.push_back(
+        {{"bytes", heap.bytes}, {"lower_bound_bytes", heap.lower_bound}, {"unshared_bytes", heap.unshared}});
+  return records;
+}
+
 Json pass_records(const Plan& plan, const std::vector<std::vector<PassTime>>& frames) {
   Json records = Json::array();
   for (size_t step = 0; step < plan.steps.size(); ++step) {

@@ -6,6 +6,7 @@
 
 #include "framework/gpu/device.hpp"
 #include "framework/graph/plan.hpp"
+#include "framework/graph/share_memory.hpp"
 #include "framework/run/frame_result.hpp"
 #include "framework/run/plugins.hpp"
 #include "framework/scene/camera_path.hpp"
@@ -23,6 +24,8 @@ namespace lightloom::run {
 [[nodiscard]] nlohmann::ordered_json frame_record(const FrameResult& frame, uint32_t seed, const scene::Bounds& bounds);
 /// Name, hash of the plan, sizes, params, outputs, what was culled and bypassed, memory.
 [[nodiscard]] nlohmann::ordered_json graph_record(const Plan& plan);
+/// One entry a heap: its bytes, the least that any sharing needs, and what its values would need apart.
+[[nodiscard]] nlohmann::ordered_json sharing_records(const MemorySharing& sharing);
 /// One entry a pass that every frame runs, in execution order: name, type, version, inputs, params, time of each frame
 /// and their median [ms]; times are null where the device has no timestamps.
 [[nodiscard]] nlohmann::ordered_json pass_records(const Plan& plan, const std::vector<std::vector<PassTime>>& frames);

@@ -44,6 +44,7 @@ Json run_record(const RenderRequest& request, const Executor& executor, const sc
   record["device"] = device_record(device.info());
   record["validation"] = device.validating();
   record["value_memory_bytes"] = executor.value_bytes();
+  record["shared_memory"] = sharing_records(executor.memory_sharing());
   record["frame_wall_ms"] = {{"median", median(progress.wall_milliseconds)}, {"frames", progress.wall_milliseconds}};
   record["hoisted"] = once_records(executor.plan(), progress.once_times);
   record["passes"] = pass_records(executor.plan(), progress.pass_times);
@@ -99,7 +100,8 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
                      .camera = request.camera,
                      .camera_path = path,
                      .seed = request.seed,
-                     .frames_per_second = request.frames_per_second});
+                     .frames_per_second = request.frames_per_second,
+                     .share_memory = request.share_memory});
   RunFolder folder(request.out, request.dump_format);
   const Progress progress = render_frames(request, scene, executor, folder, on_frame);
   summary.folder = folder.path();

@@ -28,6 +28,7 @@ struct RenderRequest {
   uint32_t last_frame = 0;   ///< inclusive
   double frames_per_second = 30;
   std::filesystem::path out;  ///< run folder, made if missing
+  bool share_memory = true;   ///< values that are not live at the same time share memory
   DumpFormat dump_format = DumpFormat::exr;
   gpu::DeviceOptions device;
   ShaderFolders shaders = default_shader_folders();

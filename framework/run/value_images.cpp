@@ -1,5 +1,9 @@
 #include "framework/run/value_images.hpp"
 
+#include <algorithm>
+#include <map>
+#include <optional>
+
 #include "framework/gpu/format.hpp"
 #include "framework/gpu/transfer.hpp"
 #include "framework/run/device_room.hpp"
@@ -49,9 +53,18 @@ std::vector<VkImageUsageFlags> usages(const Graph& graph) {
 
 }  // namespace
 
-ValueImages::ValueImages(const gpu::Device& device, const Plan& plan) {
-  const Graph& graph = plan.graph;
-  require_room(graph, room_of(device));
+ValueImages::ValueImages(const gpu::Device& device, Plan& plan, bool share_them) {
+  require_room(plan.graph, room_of(device));
+  create(device, plan.graph);
+  sharing_.places.resize(entries_.size());
+  if (share_them) sharing_ = share(device, plan);
+  bind(device);
+  for (const PlanStep& step : plan.steps)
+    for (const Barrier& barrier : step.barriers)
+      if (barrier.takes_over) entries_[barrier.value].taken_over = true;
+}
+
+void ValueImages::create(const gpu::Device& device, const Graph& graph) {
   const std::vector<VkImageUsageFlags> usage = usages(graph);
   for (size_t id = 0; id < graph.values.size(); ++id) {
     const Value& value = graph.values[id];
@@ -65,8 +78,49 @@ ValueImages::ValueImages(const gpu::Device& device, const Plan& plan) {
                               .mip_levels = 1,
                               .usage = usage[id],
                               .name = value_name(value)};
-    for (uint32_t i = 0; i < (volume ? entry.layers : 1); ++i) entry.images.emplace_back(device, spec);
+    for (uint32_t i = 0; i < (volume ? entry.layers : 1); ++i)
+      entry.images.push_back(gpu::Image::unbound(device, spec));
     entries_.push_back(std::move(entry));
+  }
+}
+
+MemorySharing ValueImages::share(const gpu::Device& device, Plan& plan) const {
+  std::vector<MemoryNeed> needs;
+  for (const Entry& entry : entries_) {
+    const VkMemoryRequirements& requirements = entry.images.front().requirements();
+    needs.push_back({requirements.size, requirements.alignment, requirements.memoryTypeBits});
+  }
+  Plan shared = plan;
+  MemorySharing sharing = share_memory(shared, needs);
+  const uint64_t limit = device.info().max_allocation_bytes;
+  const bool fits = std::all_of(sharing.heaps.begin(), sharing.heaps.end(),
+                                [&](const SharedHeap& heap) { return limit == 0 || heap.bytes <= limit; });
+  // One allocation cannot hold them all: apart, each may still find its place.
+  if (!fits) return {{}, std::vector<std::optional<SharedPlace>>(entries_.size())};
+  plan = std::move(shared);
+  return sharing;
+}
+
+void ValueImages::bind(const gpu::Device& device) {
+  std::vector<VkMemoryRequirements> needs(sharing_.heaps.size());
+  for (size_t id = 0; id < entries_.size(); ++id) {
+    if (!sharing_.places[id]) continue;
+    VkMemoryRequirements& need = needs[sharing_.places[id]->heap];
+    const VkMemoryRequirements& own = entries_[id].images.front().requirements();
+    need = {sharing_.heaps[sharing_.places[id]->heap].bytes, std::max(need.alignment, own.alignment),
+            own.memoryTypeBits};
+  }
+  for (const VkMemoryRequirements& need : needs)
+    heaps_.push_back(gpu::allocate_memory(device, need, gpu::MemoryKind::device, "memory that values share"));
+  for (size_t id = 0; id < entries_.size(); ++id) {
+    const std::optional<SharedPlace>& place = sharing_.places[id];
+    entries_[id].shares = place.has_value();
+    for (gpu::Image& image : entries_[id].images) {
+      if (place)
+        image.bind(device, heaps_[place->heap].get(), place->offset);
+      else
+        image.bind_own(device);
+    }
   }
 }
 
@@ -97,11 +151,40 @@ gpu::ImageView ValueImages::array_view(ValueId value) const {
 
 void ValueImages::record_initialisation(VkCommandBuffer commands) const {
   for (const Entry& entry : entries_) {
+    if (entry.taken_over) continue;
     for (const gpu::Image& image : entry.images) {
       gpu::record_layout_change(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
       run::record_clear(commands, image, VK_REMAINING_ARRAY_LAYERS, {});
     }
   }
+}
+
+void ValueImages::record_takeovers(VkCommandBuffer commands, std::span<const Barrier> barriers) const {
+  std::map<ValueId, VkImageMemoryBarrier2> images;
+  for (const Barrier& barrier : barriers) {
+    if (!barrier.takes_over) continue;
+    const gpu::Image& image = entries_.at(barrier.value).images.front();
+    VkImageMemoryBarrier2& merged = images[barrier.value];
+    merged.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+    merged.srcStageMask |= access_info(barrier.from).stages;
+    merged.srcAccessMask |= access_info(barrier.from).access;
+    merged.dstStageMask |= access_info(barrier.to).stages;
+    merged.dstAccessMask |= access_info(barrier.to).access;
+    merged.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    merged.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+    merged.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    merged.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    merged.image = image.get();
+    merged.subresourceRange = {image.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+  }
+  if (images.empty()) return;
+  std::vector<VkImageMemoryBarrier2> list;
+  for (const auto& [value, barrier] : images) list.push_back(barrier);
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.imageMemoryBarrierCount = static_cast<uint32_t>(list.size());
+  dependency.pImageMemoryBarriers = list.data();
+  vkCmdPipelineBarrier2(commands, &dependency);
 }
 
 void ValueImages::record_clear(VkCommandBuffer commands, const Clear& clear) const {
@@ -111,8 +194,10 @@ void ValueImages::record_clear(VkCommandBuffer commands, const Clear& clear) con
 
 uint64_t ValueImages::bytes() const {
   uint64_t total = 0;
+  for (const SharedHeap& heap : sharing_.heaps) total += heap.bytes;
   for (const Entry& entry : entries_)
-    for (const gpu::Image& image : entry.images) total += image.memory_bytes();
+    if (!entry.shares)
+      for (const gpu::Image& image : entry.images) total += image.memory_bytes();
   return total;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "framework/gpu/image.hpp"
 #include "framework/graph/plan.hpp"
+#include "framework/graph/share_memory.hpp"
 
 namespace lightloom::run {
 
@@ -17,8 +19,10 @@ struct ValueLayer {
 /// it; a 3D ring is one image per layer, since volumes have no layers.
 class ValueImages {
  public:
-  /// Throws Error(run_failed) when the values are too large for the device (require_room), before it allocates any.
-  ValueImages(const gpu::Device& device, const Plan& plan);
+  /// With `share`, values that are not live at the same time share memory, and the plan gets the barriers which that
+  /// demands. Throws Error(run_failed) when the values are too large for the device (require_room), before it allocates
+  /// any.
+  ValueImages(const gpu::Device& device, Plan& plan, bool share);
 
   /// The layer that holds `value` as it was `age` frames before frame number `count` (frames counted since the start).
   [[nodiscard]] ValueLayer layer(ValueId value, uint32_t age, uint64_t count) const;
@@ -29,18 +33,30 @@ class ValueImages {
   /// The whole ring of a 2D value.
   [[nodiscard]] gpu::ImageView array_view(ValueId value) const;
 
-  /// Brings every image into GENERAL and fills it with zeros, so that nothing can depend on what the memory held.
+  /// Brings every image that has its memory to itself into GENERAL and fills it with zeros, so that nothing can depend
+  /// on what the memory held.
   void record_initialisation(VkCommandBuffer commands) const;
+  /// Those of `barriers` that take memory over: brings their images into GENERAL behind the uses they wait for.
+  void record_takeovers(VkCommandBuffer commands, std::span<const Barrier> barriers) const;
   /// Fills every layer of a value.
   void record_clear(VkCommandBuffer commands, const Clear& clear) const;
 
   [[nodiscard]] uint64_t bytes() const;  ///< device memory of all images
+  [[nodiscard]] const MemorySharing& sharing() const { return sharing_; }
 
  private:
   struct Entry {
     std::vector<gpu::Image> images;
     uint32_t layers = 1;
+    bool shares = false;      ///< lies in a heap
+    bool taken_over = false;  ///< its memory is somebody else's at other times
   };
+  void create(const gpu::Device& device, const Graph& graph);
+  [[nodiscard]] MemorySharing share(const gpu::Device& device, Plan& plan) const;
+  void bind(const gpu::Device& device);
+
+  std::vector<gpu::MemoryHandle> heaps_;  ///< outlive the images
+  MemorySharing sharing_;
   std::vector<Entry> entries_;
 };
 

@@ -42,6 +42,20 @@ std::vector<Images> run(const std::string& graph, const std::vector<std::string>
   return run_graph(graph, scene, options);
 }
 
+TEST_F(LightloomGraph, GivesTheSameBitsWhetherValuesShareMemoryOrNot) {
+  for (const char* name : {"lightloom.json", "paper.json"}) {
+    GraphRunOptions options;
+    options.frames = 3;
+    options.link.captures = {"*"};
+    const std::vector<Images> shared = run_graph(small_graph(name, 0.5), atrium(), options);
+    options.share_memory = false;
+    const std::vector<Images> apart = run_graph(small_graph(name, 0.5), atrium(), options);
+    for (uint32_t frame = 0; frame < options.frames; ++frame)
+      for (const auto& [value, image] : apart[frame])
+        EXPECT_TRUE(image.texels == shared[frame].at(value).texels) << name << ", frame " << frame << ": " << value;
+  }
+}
+
 using Colors = std::vector<double>;
 
 /// Red, green and blue, compressed to [0, 1): one lamp or one spark must not outweigh the picture.

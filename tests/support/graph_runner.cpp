@@ -63,7 +63,11 @@ void visit_frames(std::string_view graph_json, const scene::Scene& scene, const 
   run::ShaderFolders shaders = run::default_shader_folders();
   shaders.sources.push_back(source_dir() / "tests/passes/shaders");
   run::Executor executor(shared_device(), compile_text(graph_json, registry, link_options, scene), scene,
-                         {.shaders = shaders, .camera = options.camera, .seed = options.seed, .frames_per_second = 30});
+                         {.shaders = shaders,
+                          .camera = options.camera,
+                          .seed = options.seed,
+                          .frames_per_second = 30,
+                          .share_memory = options.share_memory});
   for (uint32_t frame = 0; frame < options.frames; ++frame) {
     run::FrameResult result = executor.run_frame(frame);
     Images images;

@@ -17,6 +17,7 @@ namespace lightloom::test {
 struct GraphRunOptions {
   uint32_t frames = 1;  ///< rendered one after another from frame 0
   uint32_t seed = 0;
+  bool share_memory = true;
   std::string camera;                ///< empty: the scene's first
   std::vector<std::string> capture;  ///< globs over "pass.port" / "pass.port.part"
   LinkOptions link;

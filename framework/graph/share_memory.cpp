@@ -1,0 +1,167 @@
+#include "framework/graph/share_memory.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "framework/base/text.hpp"
+#include "framework/graph/place.hpp"
+
+namespace lightloom {
+namespace {
+
+/// A half-open range of bytes.
+struct Range {
+  uint64_t begin = 0;
+  uint64_t end = 0;
+};
+
+/// A value that lives within a frame.
+struct Tenant {
+  ValueId value = 0;
+  Block block;
+  Access written = Access::none;
+  std::vector<Access> last_uses;  ///< distinct; of its readers, or its write where nobody reads it
+  Range range;
+};
+
+/// Takes `range` away from what is left; was any of it there?
+bool subtract(std::vector<Range>& left, const Range& range) {
+  std::vector<Range> rest;
+  bool met = false;
+  for (const Range& part : left) {
+    if (part.end <= range.begin || range.end <= part.begin) {
+      rest.push_back(part);
+      continue;
+    }
+    met = true;
+    if (part.begin < range.begin) rest.push_back({part.begin, range.begin});
+    if (range.end < part.end) rest.push_back({range.end, part.end});
+  }
+  left = std::move(rest);
+  return met;
+}
+
+class Sharing {
+ public:
+  Sharing(Plan& plan, std::span<const MemoryNeed> needs) : plan_(plan), graph_(plan.graph), needs_(needs) {}
+
+  MemorySharing run() {
+    result_.places.resize(graph_.values.size());
+    for (auto& [kinds, tenants] : tenants_by_kind()) settle(kinds, tenants);
+    return std::move(result_);
+  }
+
+ private:
+  std::vector<bool> has_own_memory() const {
+    std::vector<bool> own(graph_.values.size(), true);
+    for (const PlanStep& step : plan_.steps) {
+      const GraphPass& pass = graph_.passes[step.pass];
+      for (const auto* uses : {&pass.outputs, &pass.scratch}) {
+        for (const Use& use : *uses) {
+          const Value& value = graph_.values[use.value];
+          own[use.value] = value.history > 0 || value.persistent || value.constant.has_value();
+        }
+      }
+    }
+    for (const GraphOutput& output : graph_.outputs) own[output.value] = true;
+    return own;
+  }
+
+  std::map<uint32_t, std::vector<Tenant>> tenants_by_kind() const {
+    const std::vector<bool> own = has_own_memory();
+    std::vector<std::optional<Tenant>> found(graph_.values.size());
+    for (uint32_t step = 0; step < plan_.steps.size(); ++step) {
+      const GraphPass& pass = graph_.passes[plan_.steps[step].pass];
+      for (const auto* uses : {&pass.outputs, &pass.scratch})
+        for (const Use& use : *uses)
+          if (!own[use.value]) found[use.value] = begin(use, step);
+      for (const Use& use : pass.inputs)
+        if (found[use.value]) touch(*found[use.value], use.access, step);
+      for (const Copy& copy : plan_.steps[step].copies)
+        if (found[copy.value]) touch(*found[copy.value], Access::transfer_read, step);
+    }
+    std::map<uint32_t, std::vector<Tenant>> by_kind;
+    for (const std::optional<Tenant>& tenant : found)
+      if (tenant) by_kind[needs_[tenant->value].kinds].push_back(*tenant);
+    return by_kind;
+  }
+
+  Tenant begin(const Use& use, uint32_t step) const {
+    const MemoryNeed& need = needs_[use.value];
+    return {use.value, {need.size, need.alignment, step, step}, use.access, {}, {}};
+  }
+
+  static void touch(Tenant& tenant, Access access, uint32_t step) {
+    tenant.block.last = step;
+    if (std::find(tenant.last_uses.begin(), tenant.last_uses.end(), access) == tenant.last_uses.end())
+      tenant.last_uses.push_back(access);
+  }
+
+  void settle(uint32_t kinds, std::vector<Tenant>& tenants) {
+    std::vector<Block> blocks;
+    for (const Tenant& tenant : tenants) blocks.push_back(tenant.block);
+    const Placement placement = place(blocks);
+    SharedHeap heap{kinds, placement.heap, placement.lower_bound, 0};
+    for (size_t i = 0; i < tenants.size(); ++i) {
+      Tenant& tenant = tenants[i];
+      if (tenant.last_uses.empty()) tenant.last_uses = {tenant.written};
+      tenant.range = {placement.offsets[i], placement.offsets[i] + tenant.block.size};
+      heap.unshared += tenant.block.size;
+      result_.places[tenant.value] = SharedPlace{static_cast<uint32_t>(result_.heaps.size()), placement.offsets[i]};
+    }
+    result_.heaps.push_back(heap);
+    std::stable_sort(tenants.begin(), tenants.end(),
+                     [](const Tenant& a, const Tenant& b) { return a.block.first < b.block.first; });
+    for (size_t i = 0; i < tenants.size(); ++i) take_over(tenants, i);
+  }
+
+  /// Goes back from the tenant through this frame and the one before, to itself, until every byte of its range has had
+  /// a tenant.
+  void take_over(const std::vector<Tenant>& tenants, size_t index) {
+    const Tenant& tenant = tenants[index];
+    std::vector<Range> left = {tenant.range};
+    std::vector<const Tenant*> before;
+    for (size_t back = 1; back <= tenants.size() && !left.empty(); ++back) {
+      const Tenant& earlier = tenants[(index + tenants.size() - back) % tenants.size()];
+      if (subtract(left, earlier.range)) before.push_back(&earlier);
+    }
+    // Alone there, its own last frame is behind barriers already.
+    if (before.size() == 1 && before.front() == &tenant) return;
+    for (const Tenant* earlier : before) {
+      const bool previous_frame = earlier->block.first >= tenant.block.first;
+      for (const Access access : earlier->last_uses) add(tenant, *earlier, access, previous_frame);
+    }
+  }
+
+  void add(const Tenant& tenant, const Tenant& earlier, Access access, bool previous_frame) {
+    Barrier barrier{tenant.value,   access,
+                    tenant.written, access_info(access).writes ? Hazard::write_after_write : Hazard::write_after_read,
+                    previous_frame, "takes over the memory of " + value_name(graph_.values[earlier.value])};
+    barrier.takes_over = true;
+    std::vector<Barrier>& list = plan_.steps[tenant.block.first].barriers;
+    // One reason an access and a frame: the names join.
+    for (Barrier& other : list) {
+      if (!other.takes_over || other.value != barrier.value || other.from != access ||
+          other.previous_frame != previous_frame)
+        continue;
+      other.reason += ", " + value_name(graph_.values[earlier.value]);
+      return;
+    }
+    list.push_back(std::move(barrier));
+  }
+
+  Plan& plan_;
+  const Graph& graph_;
+  std::span<const MemoryNeed> needs_;
+  MemorySharing result_;
+};
+
+}  // namespace
+
+MemorySharing share_memory(Plan& plan, std::span<const MemoryNeed> needs) {
+  return Sharing(plan, needs).run();
+}
+
+}  // namespace lightloom
