@@ -9,9 +9,9 @@
 namespace lightloom::image {
 namespace {
 
-void require_comparable(const HostImage& image, const char* role) {
+void require_comparable(const HostImage& image, std::string_view role) {
   const auto fail = [role](const std::string& cause) {
-    throw Error(ExitCode::invalid_input, std::string("the ") + role + " cannot be compared: " + cause);
+    throw Error(ExitCode::invalid_input, "the " + std::string(role) + " cannot be compared: " + cause);
   };
   const Extent3& extent = image.desc.extent;
   const FormatInfo& format = format_info(image.desc.format);
@@ -45,7 +45,15 @@ float sample(const std::byte* from, ChannelType type) {
   return load<float>(from);
 }
 
-Planes planes_of(const HostImage& image) {
+bool is_finite(const Planes& planes, size_t pixel) {
+  return std::isfinite(planes.channels[0][pixel]) && std::isfinite(planes.channels[1][pixel]) &&
+         std::isfinite(planes.channels[2][pixel]);
+}
+
+}  // namespace
+
+Planes planes_of(const HostImage& image, std::string_view role) {
+  require_comparable(image, role);
   Planes planes{image.desc.extent.width, image.desc.extent.height, {}};
   const ChannelType type = channel_type(image.desc.format);
   const size_t channels = format_info(image.desc.format).channels;
@@ -62,13 +70,6 @@ Planes planes_of(const HostImage& image) {
   return planes;
 }
 
-bool is_finite(const Planes& planes, size_t pixel) {
-  return std::isfinite(planes.channels[0][pixel]) && std::isfinite(planes.channels[1][pixel]) &&
-         std::isfinite(planes.channels[2][pixel]);
-}
-
-}  // namespace
-
 double luminance(const Planes& planes, size_t pixel) {
   double sum = 0;
   for (size_t c = 0; c < 3; ++c) sum += kLuminanceWeights[c] * static_cast<double>(planes.channels[c][pixel]);
@@ -76,16 +77,14 @@ double luminance(const Planes& planes, size_t pixel) {
 }
 
 ComparedImages pair_images(const HostImage& reference, const HostImage& test) {
-  require_comparable(reference, "reference");
-  require_comparable(test, "test image");
+  ComparedImages pair;
+  pair.reference = planes_of(reference, "reference");
+  pair.test = planes_of(test, "test image");
   if (reference.desc.extent != test.desc.extent) {
     throw Error(ExitCode::invalid_input, "the images differ in size: the reference has " +
                                              to_string(reference.desc.extent) + " pixels, the test image " +
                                              to_string(test.desc.extent));
   }
-  ComparedImages pair;
-  pair.reference = planes_of(reference);
-  pair.test = planes_of(test);
   const size_t count = pair.reference.pixel_count();
   pair.usable.assign(count, 1);
   for (size_t pixel = 0; pixel < count; ++pixel) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "framework/image/host_image.hpp"
@@ -16,6 +17,9 @@ struct Planes {
 
   [[nodiscard]] size_t pixel_count() const { return size_t{width} * height; }
 };
+
+/// Values as they are. Throws Error(invalid_input) as `compare` says; `role` names the image in the message.
+[[nodiscard]] Planes planes_of(const HostImage& image, std::string_view role);
 
 /// Luminance weights of linear R, G and B with the primaries of Rec. 709 (ITU-R BT.709).
 constexpr std::array<double, 3> kLuminanceWeights = {0.2126, 0.7152, 0.0722};

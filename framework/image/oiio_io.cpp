@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/filesystem.h>
 
+#include <algorithm>
 #include <span>
 #include <system_error>
 #include <vector>
@@ -14,6 +15,24 @@ namespace {
 
 [[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& format, const std::string& cause) {
   throw Error(ExitCode::invalid_input, "cannot read '" + file.string() + "' as " + format + ": " + cause);
+}
+
+void require_file(const std::filesystem::path& file, const std::string& format) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) fail_to_read(file, format, "there is no such file");
+  if (!std::filesystem::is_regular_file(file, ignored)) fail_to_read(file, format, "it is not a regular file");
+}
+
+void require_flat(const std::filesystem::path& file, const std::string& format, const OIIO::ImageSpec& spec) {
+  if (spec.deep || spec.depth > 1 || spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) {
+    fail_to_read(file, format, "only flat 2D images are supported");
+  }
+}
+
+/// OpenImageIO's messages may have several lines.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
 }
 
 }  // namespace
@@ -34,16 +53,21 @@ void encode_and_write(const std::filesystem::path& file, const std::string& form
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file, const std::string& format,
                                              const OIIO::ImageSpec& config) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) fail_to_read(file, format, "there is no such file");
-  if (!std::filesystem::is_regular_file(file, ignored)) fail_to_read(file, format, "it is not a regular file");
+  require_file(file, format);
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input) fail_to_read(file, format, "this OpenImageIO was built without it");
   OIIO::ImageSpec spec;
   if (!input->open(file.string(), spec, config)) fail_to_read(file, format, input->geterror());
-  if (spec.deep || spec.depth > 1 || spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) {
-    fail_to_read(file, format, "only flat 2D images are supported");
-  }
+  require_flat(file, format, spec);
+  return input;
+}
+
+std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file, const OIIO::ImageSpec& config) {
+  const std::string kind = "an image";
+  require_file(file, kind);
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string(), &config);
+  if (!input) fail_to_read(file, kind, one_line(OIIO::geterror()));
+  require_flat(file, kind, input->spec());
   return input;
 }
 

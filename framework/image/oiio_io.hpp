@@ -20,6 +20,10 @@ void encode_and_write(const std::filesystem::path& file, const std::string& form
 [[nodiscard]] std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file, const std::string& format,
                                                            const OIIO::ImageSpec& config);
 
+/// The same for a file of any format that OpenImageIO knows.
+[[nodiscard]] std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file,
+                                                           const OIIO::ImageSpec& config);
+
 /// Reads all of the first part as `type`, tightly packed, into `samples`.
 void read_samples(OIIO::ImageInput& input, const std::filesystem::path& file, const OIIO::TypeDesc& type,
                   void* samples);
