@@ -87,12 +87,16 @@ ComparedImages pair_images(const HostImage& reference, const HostImage& test) {
   }
   const size_t count = pair.reference.pixel_count();
   pair.usable.assign(count, 1);
+  pair.reference_usable.assign(count, 1);
   for (size_t pixel = 0; pixel < count; ++pixel) {
     const bool reference_finite = is_finite(pair.reference, pixel);
     const bool test_finite = is_finite(pair.test, pixel);
     if (reference_finite && test_finite) continue;
     pair.usable[pixel] = 0;
-    if (!reference_finite) ++pair.reference_non_finite;
+    if (!reference_finite) {
+      pair.reference_usable[pixel] = 0;
+      ++pair.reference_non_finite;
+    }
     if (!test_finite) ++pair.non_finite;
     for (size_t c = 0; c < 3; ++c) {
       if (!reference_finite) pair.reference.channels[c][pixel] = 0;

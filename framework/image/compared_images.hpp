@@ -30,7 +30,8 @@ constexpr std::array<double, 3> kLuminanceWeights = {0.2126, 0.7152, 0.0722};
 struct ComparedImages {
   Planes reference;
   Planes test;
-  std::vector<uint8_t> usable;  ///< by pixel: 1 where both were finite
+  std::vector<uint8_t> usable;            ///< by pixel: 1 where both were finite
+  std::vector<uint8_t> reference_usable;  ///< by pixel: 1 where the reference was
   uint64_t usable_count = 0;
   uint64_t non_finite = 0;            ///< pixels of the test
   uint64_t reference_non_finite = 0;  ///< pixels of the reference

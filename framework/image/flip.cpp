@@ -113,9 +113,9 @@ double median_of(std::vector<double> values) {
 
 std::vector<double> exposures(const ComparedImages& images) {
   std::vector<double> luminances;
-  luminances.reserve(images.usable_count);
+  luminances.reserve(images.reference.pixel_count());
   for (size_t pixel = 0; pixel < images.reference.pixel_count(); ++pixel) {
-    if (images.usable[pixel] == 0) continue;
+    if (images.reference_usable[pixel] == 0) continue;
     double value = 0;
     for (size_t c = 0; c < 3; ++c)
       value += kLuminanceWeights[c] * std::max(0.0, static_cast<double>(images.reference.channels[c][pixel]));

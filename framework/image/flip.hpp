@@ -12,7 +12,8 @@ namespace lightloom::image::flip {
 
 /// Exposures [log2] at which FLIP of radiance looks at the images (EG 2021, section 4): from that at which the
 /// reference's brightest pixel is tone mapped to 0.85 to that at which its median luminance is, at most one stop
-/// apart, at least two. Black pixels do not count for the median where it would be 0; empty where all are black.
+/// apart, at least two. Black pixels do not count for the median where it would be 0; empty where all are black. They
+/// depend on the reference alone.
 [[nodiscard]] std::vector<double> exposures(const ComparedImages& images);
 
 }  // namespace lightloom::image::flip

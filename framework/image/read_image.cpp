@@ -78,11 +78,9 @@ float remove_srgb_transfer(float value) {
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
-bool is_integer(const OIIO::TypeDesc& type) {
-  return type == OIIO::TypeDesc::UINT8 || type == OIIO::TypeDesc::UINT16;
-}
-bool is_float(const OIIO::TypeDesc& type) {
-  return type == OIIO::TypeDesc::HALF || type == OIIO::TypeDesc::FLOAT || type == OIIO::TypeDesc::DOUBLE;
+/// 8 or 16 bits that stand for 0..1.
+bool is_display(const OIIO::TypeDesc& type) {
+  return type.basetype == OIIO::TypeDesc::UINT8 || type.basetype == OIIO::TypeDesc::UINT16;
 }
 
 HostImage select(const std::vector<float>& samples, const OIIO::ImageSpec& spec, const Channels& channels,
@@ -122,12 +120,13 @@ ReadImage read_image(const std::filesystem::path& file, const ReadOptions& optio
   const OIIO::ImageSpec& spec = input->spec();
   const Channels channels = choose_channels(file, spec, options.channel);
   const OIIO::TypeDesc type = spec.channelformat(static_cast<int>(channels.front()));
-  if (!is_integer(type) && !is_float(type)) fail(file, std::string("its samples are of type ") + type.c_str());
+  if (!is_display(type) && !type.is_floating_point())
+    fail(file, std::string("its samples are of type ") + type.c_str());
   std::vector<float> samples(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
                              static_cast<size_t>(spec.nchannels));
   read_samples(*input, file, OIIO::TypeDesc::FLOAT, samples.data());
   ReadImage result;
-  result.display = is_integer(type);
+  result.display = is_display(type);
   const std::string space = lower(spec.get_string_attribute("oiio:ColorSpace"));
   result.decoded = result.display && !options.linear && space != "linear" && space != "raw";
   const auto as_it_is = [](float value) { return value; };

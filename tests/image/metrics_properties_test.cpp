@@ -196,6 +196,15 @@ TEST(Metrics, non_finite_pixels_are_counted_and_touch_nothing_else) {
   for (const double figure : figures(swapped)) EXPECT_TRUE(std::isfinite(figure));
 }
 
+TEST(Metrics, exposures_of_flip_depend_on_the_reference_alone) {
+  // The brightest pixel of the reference sets the first exposure, also where the test is broken there.
+  const HostImage reference = with_pixel(test_picture(40, 30, 1, 0, 5), 2, 2, {300, 300, 300});
+  const HostImage test = with_pixel(test_picture(40, 30, 1, 0.2, 6), 2, 2, {300, 300, 300});
+  const double rest = compare(reference, test).flip * 1200 - flip_map(reference, test).at(2, 2, 0, 0);
+  const double broken = compare(reference, with_pixel(test, 2, 2, {kNan, 0, 0})).flip;
+  EXPECT_NEAR(broken * 1199, rest, 1e-3);
+}
+
 TEST(Metrics, without_any_finite_pixel_nothing_is_claimed) {
   const HostImage nothing = constant_image(20, 15, {kNan, 0, 0});
   const Metrics metrics = compare(constant_image(20, 15, {1, 1, 1}), nothing);

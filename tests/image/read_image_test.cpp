@@ -54,6 +54,17 @@ TEST(ReadImage, eight_and_sixteen_bits_are_made_linear) {
     EXPECT_NEAR(wide.image.at(k / 3, 0, 0, k % 3), srgb_to_linear(words[k] / 65535.0), 1e-6);
 }
 
+TEST(ReadImage, a_file_that_says_that_it_is_linear_is_believed) {
+  const TemporaryFolder folder;
+  OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "Linear");
+  const std::vector<uint8_t> bytes = {51, 102, 153};
+  encode_and_write(folder / "a.png", "png", spec, bytes.data());
+  const ReadImage read = read_image(folder / "a.png");
+  EXPECT_TRUE(read.display && !read.decoded);
+  EXPECT_NEAR(read.image.at(0, 0, 0, 1), 0.4, 1e-6);
+}
+
 TEST(ReadImage, many_formats) {
   const TemporaryFolder folder;
   const std::vector<float> floats = {0.25f, 0.5f, 2, 64, 0, 1};
