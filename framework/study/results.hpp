@@ -93,7 +93,7 @@ struct StudyResults {
   std::string metric;             ///< the first, by which rows are ranked: "flip"
   std::vector<std::string> axes;  ///< names of what varies
   std::vector<std::pair<std::string, std::string>>
-      provenance;  ///< device, driver, version, commit, seeds, frames, sizes
+      provenance;                  ///< device, driver, version, commit, seeds, frames, sizes
   std::vector<std::string> notes;  ///< what a reader must know: times disturbed, one seed alone, no reference, ...
   std::vector<View> views;
   std::vector<Row> rows;
