@@ -27,6 +27,8 @@ struct RenderOptions {
   uint32_t seed = 0;
   double frames_per_second = 30;
   std::string dump_format = "exr";
+  uint32_t checkpoint_every = 0;
+  bool resume = false;
   std::string device;
   bool no_alias = false;
   bool validate = false;
@@ -48,6 +50,8 @@ run::RenderRequest make_request(const RenderOptions& options, const CommandConte
   request.first_frame = options.frames.first;
   request.last_frame = options.frames.last;
   request.frames_per_second = options.frames_per_second;
+  request.checkpoint_every = options.checkpoint_every;
+  request.resume = options.resume;
   request.out = options.out.empty() ? std::filesystem::path("out") / options.graph.stem() : options.out;
   request.device = {options.device, options.validate};
   request.command_line = {"lightloom"};
@@ -69,7 +73,9 @@ std::string milliseconds_text(double milliseconds) {
 
 void report(const run::RenderSummary& summary, uint32_t frames, std::ostream& out) {
   out << frames << (frames == 1 ? " frame in " : " frames in ") << summary.folder.string() << ", "
-      << milliseconds_text(summary.milliseconds_per_frame) << " a frame (median)\n";
+      << milliseconds_text(summary.milliseconds_per_frame) << " a frame (median)";
+  if (summary.frames_resumed > 0) out << "; " << summary.frames_resumed << " were there already";
+  out << '\n';
   if (!summary.images.empty()) out << summary.images.back().string() << '\n';
 }
 
@@ -126,6 +132,18 @@ void add_render_command(Command& program, const CommandContext& context, const s
   command.option("-o,--out", options->out, "Run folder, made if missing")
       .placeholder("DIR")
       .default_text("out/ and the graph file's name");
+  command
+      .option("--checkpoint", options->checkpoint_every,
+              "Save what the next frame needs into the run folder every so many frames, and at the end")
+      .placeholder("FRAMES")
+      .range(1, kLastFrame)
+      .default_text("none")
+      .group("Long runs");
+  command
+      .flag("--resume", options->resume,
+            "Go on from the run folder's checkpoint, if there is one: the pictures are those of a run that never "
+            "stopped")
+      .group("Long runs");
   command.option("--device", options->device, "Device by index or part of its name; 'lightloom devices' lists them")
       .placeholder("NAME");
   command.flag(

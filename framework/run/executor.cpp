@@ -47,7 +47,39 @@ FrameResult Executor::run_frame(uint32_t frame) {
   session.submit();
   FrameResult result = collect(frame, conditions);
   ++frame_count_;
+  started_ = true;
+  remember(frame);
   return result;
+}
+
+void Executor::remember(uint32_t frame) {
+  recent_frames_.push_back(frame);
+  if (recent_frames_.size() > kHistoryLimit) recent_frames_.erase(recent_frames_.begin());
+}
+
+ExecutorState Executor::save() const {
+  return {.frame_count = frame_count_,
+          .recent_frames = recent_frames_,
+          .layers = save_layers(device_, plan_.graph, images_, frame_count_)};
+}
+
+void Executor::restore(const ExecutorState& state) {
+  device_.run_commands([&](VkCommandBuffer commands) {
+    record_prologue(commands);
+    gpu::record_full_barrier(commands);
+  });
+  restore_layers(device_, plan_.graph, images_, state.frame_count, state.layers);
+  // The scene's own history, views and positions, follows from the numbers of the frames.
+  for (const uint32_t frame : state.recent_frames) {
+    static_cast<void>(scene_.prepare(frame));
+    device_.run_commands([&](VkCommandBuffer commands) {
+      gpu::record_full_barrier(commands);
+      scene_.record_upload(commands);
+      gpu::record_full_barrier(commands);
+    });
+    remember(frame);
+  }
+  frame_count_ = state.frame_count;
 }
 
 void Executor::record_prologue(VkCommandBuffer commands) const {
@@ -56,9 +88,9 @@ void Executor::record_prologue(VkCommandBuffer commands) const {
 }
 
 void Executor::record_frame(gpu::CommandSession& session) {
-  const bool first = frame_count_ == 0;
+  const bool first = !started_;
   timestamps_.reset(session.get());
-  if (first) record_prologue(session.get());
+  if (frame_count_ == 0) record_prologue(session.get());
   record_barriers(session.get(), plan_.frame_start);
   scene_.record_upload(session.get());
   record_barriers(session.get(), plan_.inputs_ready);
@@ -130,7 +162,7 @@ FrameResult Executor::collect(uint32_t frame, const FrameConditions& conditions)
     result.outputs.push_back({output.name, readback_.fetch(output.value, output.age)});
   for (const ValueId capture : graph.captures)
     result.captures.push_back({value_name(graph.values[capture]), readback_.fetch(capture, 0)});
-  const bool first = frame_count_ == 0;
+  const bool first = !started_;
   const std::vector<double> stamps =
       timestamps_.nanoseconds(query_count(plan_.steps.size() + (first ? plan_.once.size() : 0)));
   result.times = times_of(plan_.steps, stamps, 0);

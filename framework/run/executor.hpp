@@ -11,6 +11,7 @@
 #include "framework/gpu/device.hpp"
 #include "framework/gpu/timestamps.hpp"
 #include "framework/graph/plan.hpp"
+#include "framework/run/executor_state.hpp"
 #include "framework/run/frame_result.hpp"
 #include "framework/run/host_passes.hpp"
 #include "framework/run/pass_recorder.hpp"
@@ -43,6 +44,12 @@ class Executor {
   /// Runs frame number `frame` after the frames run so far, which are its history, and waits for it.
   [[nodiscard]] FrameResult run_frame(uint32_t frame);
 
+  /// What the next frame goes on from. At least one frame has run.
+  [[nodiscard]] ExecutorState save() const;
+  /// Goes on from there, before the first frame, as if this executor had run those frames with the same plan, scene and
+  /// options: the next ones have the same bits. Throws Error(invalid_input) for a state of another graph.
+  void restore(const ExecutorState& state);
+
   /// What had to be changed in the scene for the device.
   [[nodiscard]] const std::vector<std::string>& scene_warnings() const { return scene_.warnings(); }
   [[nodiscard]] const Plan& plan() const { return plan_; }
@@ -51,6 +58,7 @@ class Executor {
   [[nodiscard]] uint64_t value_bytes() const { return images_.bytes(); }
 
  private:
+  void remember(uint32_t frame);
   void record_frame(gpu::CommandSession& session);
   void record_prologue(VkCommandBuffer commands) const;
   /// Timestamps are queries `first_query` and on, two a step. What comes before a host pass is submitted.
@@ -75,7 +83,9 @@ class Executor {
   gpu::DescriptorAllocator descriptors_;
   gpu::TimestampPool timestamps_;
   std::map<std::string, double, std::less<>> host_milliseconds_;  ///< by pass, of its last run
-  uint64_t frame_count_ = 0;
+  uint64_t frame_count_ = 0;                                      ///< with those before `restore`
+  bool started_ = false;                                          ///< has run a frame itself
+  std::vector<uint32_t> recent_frames_;                           ///< numbers, oldest first, at most kHistoryLimit
 };
 
 }  // namespace lightloom::run

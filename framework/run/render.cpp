@@ -4,11 +4,16 @@
 #include <optional>
 #include <utility>
 
+#include "framework/base/error.hpp"
+#include "framework/base/hash.hpp"
+#include "framework/run/checkpoint.hpp"
 #include "framework/run/compile_graph.hpp"
 #include "framework/run/executor.hpp"
 #include "framework/run/provenance.hpp"
 #include "framework/run/run_folder.hpp"
+#include "framework/run/run_progress.hpp"
 #include "framework/run/version.hpp"
+#include "framework/scene/content_hash.hpp"
 #include "framework/scene/scene.hpp"
 
 namespace lightloom::run {
@@ -17,16 +22,20 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-/// Times and warnings that gather while frames are rendered.
-struct Progress {
-  std::vector<std::vector<PassTime>> pass_times;
-  std::vector<PassTime> once_times;
-  std::vector<double> wall_milliseconds;
+/// What the steps of one render share.
+struct Run {
+  const RenderRequest& request;
+  const scene::Scene& scene;
+  const std::optional<scene::CameraPath>& path;
+  std::string scene_hash;
+  const gpu::Device& device;
+  uint32_t total = 0;  ///< frames
+  Json identity;       ///< identity_of
 };
 
-Json run_record(const RenderRequest& request, const Executor& executor, const scene::Scene& scene,
-                const std::optional<scene::CameraPath>& path, const gpu::Device& device, const Progress& progress,
+Json run_record(const Run& run, const Executor& executor, const RunProgress& progress,
                 const std::vector<std::string>& warnings) {
+  const RenderRequest& request = run.request;
   Json record;
   record["lightloom"] = version();
   record["commit"] = commit();
@@ -34,15 +43,17 @@ Json run_record(const RenderRequest& request, const Executor& executor, const sc
   record["plugins"] = plugin_records(request.plugins);
   record["graph"] = graph_record(executor.plan());
   record["graph"]["file"] = request.graph.generic_string();
-  record["scene"] = scene_record(scene);
-  record["camera"] = scene.cameras[find_camera(scene, request.camera)].name;
-  record["camera_path"] = camera_path_record(path);
+  record["scene"] = scene_record(run.scene);
+  record["scene"]["content_hash"] = run.scene_hash;
+  record["camera"] = run.scene.cameras[find_camera(run.scene, request.camera)].name;
+  record["camera_path"] = camera_path_record(run.path);
   record["seed"] = request.seed;
   record["frames"] = {{"first", request.first_frame}, {"last", request.last_frame}};
+  record["resumed_at"] = progress.resumed_at;
   record["frames_per_second"] = request.frames_per_second;
   record["dump_format"] = to_string(request.dump_format);
-  record["device"] = device_record(device.info());
-  record["validation"] = device.validating();
+  record["device"] = device_record(run.device.info());
+  record["validation"] = run.device.validating();
   record["value_memory_bytes"] = executor.value_bytes();
   record["shared_memory"] = sharing_records(executor.memory_sharing());
   record["frame_wall_ms"] = {{"median", median(progress.wall_milliseconds)}, {"frames", progress.wall_milliseconds}};
@@ -52,22 +63,75 @@ Json run_record(const RenderRequest& request, const Executor& executor, const sc
   return record;
 }
 
-Progress render_frames(const RenderRequest& request, const scene::Scene& scene, Executor& executor, RunFolder& folder,
-                       const FrameCallback& on_frame) {
-  Progress progress;
-  if (!executor.plan().graph.captures.empty()) folder.write_moving_triangles(scene);
-  const uint32_t total = request.last_frame - request.first_frame + 1;
-  for (uint32_t done = 0; done < total; ++done) {
-    const Clock::time_point start = Clock::now();
-    const FrameResult result = executor.run_frame(request.first_frame + done);
-    const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
-    progress.wall_milliseconds.push_back(elapsed.count());
-    progress.pass_times.push_back(result.times);
-    if (done == 0) progress.once_times = result.once_times;
-    folder.write_frame(executor.plan().graph, result, frame_record(result, request.seed, scene.bounds));
-    if (on_frame) on_frame(done + 1, total);
+/// All that the bits of a run depend on, in words for who resumes it with something else.
+Json identity_of(const Run& run, const Plan& plan) {
+  const RenderRequest& request = run.request;
+  const gpu::DeviceInfo& device = run.device.info();
+  const Json camera_path = camera_path_record(run.path);
+  Json plugins = Json::array();
+  for (const LoadedPlugin& plugin : request.plugins) plugins.push_back(plugin.name + " " + plugin.version);
+  return {{"scene", run.scene_hash},
+          {"seed", std::to_string(request.seed)},
+          {"view size", to_string(plan.graph.view)},
+          {"trace size", to_string(plan.graph.trace)},
+          {"plan of the graph", hex(plan_hash(plan))},
+          {"camera", run.scene.cameras[find_camera(run.scene, request.camera)].name},
+          {"camera path", run.path ? hex(hash_text(camera_path.dump())) : "none"},
+          {"first frame", std::to_string(request.first_frame)},
+          {"frames a second", Json(request.frames_per_second).dump()},
+          {"dump format", to_string(request.dump_format)},
+          {"device", device.name + ", " + device.driver_info + ", " + device.uuid_text()},
+          {"plug-ins", plugins.dump()},
+          {"lightloom", version() + " " + commit()}};
+}
+
+/// The checkpoint to go on from, if that was asked for and there is one.
+std::optional<Checkpoint> find_checkpoint(const Run& run) {
+  if (!run.request.resume) return std::nullopt;
+  std::optional<Checkpoint> checkpoint = read_checkpoint(run.request.out);
+  if (!checkpoint) return std::nullopt;
+  require_same_run(run.request.out, checkpoint->identity, run.identity);
+  const uint32_t done = checkpoint->progress.frames();
+  if (done > run.total)
+    throw Error(ExitCode::invalid_input,
+                "the checkpoint in '" + run.request.out.string() + "' has " + std::to_string(done) +
+                    " frames, more than the " + std::to_string(run.total) + " asked for",
+                "resume with at least as many, or render without --resume, which starts anew");
+  if (done < run.total) checkpoint->progress.resumed_at.push_back(run.request.first_frame + done);
+  return checkpoint;
+}
+
+RunFolder open_folder(const RenderRequest& request, const std::optional<Checkpoint>& checkpoint) {
+  if (!checkpoint) return RunFolder(request.out, request.dump_format);
+  return {request.out, request.dump_format, checkpoint->folder};
+}
+
+void render_frame(const Run& run, Executor& executor, RunFolder& folder, RunProgress& progress) {
+  const bool first = progress.frames() == 0;
+  const Clock::time_point start = Clock::now();
+  const FrameResult result = executor.run_frame(run.request.first_frame + progress.frames());
+  const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
+  progress.wall_milliseconds.push_back(elapsed.count());
+  progress.pass_times.push_back(result.times);
+  if (first) progress.once_times = result.once_times;
+  folder.write_frame(executor.plan().graph, result, frame_record(result, run.request.seed, run.scene.bounds));
+}
+
+void render_frames(const Run& run, Executor& executor, RunFolder& folder, RunProgress& progress,
+                   const FrameCallback& on_frame) {
+  if (progress.frames() == 0 && !executor.plan().graph.captures.empty()) folder.write_moving_triangles(run.scene);
+  const uint32_t every = run.request.checkpoint_every;
+  while (progress.frames() < run.total) {
+    render_frame(run, executor, folder, progress);
+    const uint32_t done = progress.frames();
+    if (every > 0 && (done % every == 0 || done == run.total)) {
+      folder.add_file(checkpoint_file());
+      write_checkpoint(
+          folder.path(),
+          {.identity = run.identity, .folder = folder.state(), .progress = progress, .state = executor.save()});
+    }
+    if (on_frame) on_frame(done, run.total);
   }
-  return progress;
 }
 
 std::vector<std::string> validation_warnings(const gpu::Device& device) {
@@ -95,6 +159,15 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
   std::optional<Plan> plan = compile_graph(request.graph, registry, request.link, &scene, diagnostics);
   if (!plan) return false;
   gpu::Device device(request.device);
+  Run run{.request = request,
+          .scene = scene,
+          .path = path,
+          .scene_hash = hex(scene::content_hash(request.scene)),
+          .device = device,
+          .total = request.last_frame - request.first_frame + 1,
+          .identity = {}};
+  run.identity = identity_of(run, *plan);
+  const std::optional<Checkpoint> checkpoint = find_checkpoint(run);
   Executor executor(device, std::move(*plan), scene,
                     {.shaders = request.shaders,
                      .camera = request.camera,
@@ -102,15 +175,18 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
                      .seed = request.seed,
                      .frames_per_second = request.frames_per_second,
                      .share_memory = request.share_memory});
-  RunFolder folder(request.out, request.dump_format);
-  const Progress progress = render_frames(request, scene, executor, folder, on_frame);
+  if (checkpoint) executor.restore(checkpoint->state);
+  RunFolder folder = open_folder(request, checkpoint);
+  RunProgress progress = checkpoint ? checkpoint->progress : RunProgress{};
+  summary.frames_resumed = progress.frames();
+  render_frames(run, executor, folder, progress, on_frame);
   summary.folder = folder.path();
   summary.images = pictures(folder);
   summary.warnings = scene.warnings;
   for (const std::vector<std::string>& more : {executor.scene_warnings(), validation_warnings(device)})
     summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
   summary.milliseconds_per_frame = median(progress.wall_milliseconds);
-  folder.finish(run_record(request, executor, scene, path, device, progress, summary.warnings));
+  folder.finish(run_record(run, executor, progress, summary.warnings));
   return true;
 }
 

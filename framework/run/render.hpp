@@ -30,6 +30,10 @@ struct RenderRequest {
   std::filesystem::path out;  ///< run folder, made if missing
   bool share_memory = true;   ///< values that are not live at the same time share memory
   DumpFormat dump_format = DumpFormat::exr;
+  /// Frames between two checkpoints; the last frame gets one as well. 0: none.
+  uint32_t checkpoint_every = 0;
+  /// Go on from the checkpoint of the run folder, if it has one, instead of starting anew.
+  bool resume = false;
   gpu::DeviceOptions device;
   ShaderFolders shaders = default_shader_folders();
   std::vector<LoadedPlugin> plugins;      ///< for the provenance record
@@ -40,6 +44,7 @@ struct RenderSummary {
   std::filesystem::path folder;
   std::vector<std::filesystem::path> images;  ///< the `image` output of each frame, or the first output's files
   std::vector<std::string> warnings;          ///< of the graph and the scene, and what the validation layers said
+  uint32_t frames_resumed = 0;                ///< of an interrupted run that were there already
   double milliseconds_per_frame = 0;          ///< median wall time
 };
 

@@ -1,6 +1,10 @@
 #include "framework/run/run_folder.hpp"
 
+#include <signal.h>
+
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <fstream>
 #include <span>
 #include <system_error>
@@ -86,6 +90,18 @@ image::HostImage table(Format format, uint32_t width, std::span<const std::byte>
           .texels = std::vector<std::byte>(numbers.begin(), numbers.end())};
 }
 
+/// The hidden file ".NAME.PID" of an atomic write (base/atomic_file.cpp) whose process was killed.
+bool is_half_written(const fs::path& name) {
+  constexpr std::array<std::string_view, 5> kExtensions{".png", ".exr", ".npy", ".json", ".bin"};
+  const std::string kind = name.stem().extension().string();
+  const std::string process = name.extension().string();
+  if (!name.string().starts_with('.') || process.size() < 2 || process.size() > 11 ||
+      process.find_first_not_of("0123456789", 1) != std::string::npos ||
+      std::find(kExtensions.begin(), kExtensions.end(), kind) == kExtensions.end())
+    return false;
+  return ::kill(static_cast<pid_t>(std::stol(process.substr(1))), 0) != 0 && errno == ESRCH;
+}
+
 /// A relative path that stays inside its folder.
 bool stays_inside(const fs::path& relative) {
   return relative.is_relative() && std::find(relative.begin(), relative.end(), "..") == relative.end();
@@ -105,6 +121,39 @@ std::string to_string(DumpFormat format) {
 RunFolder::RunFolder(fs::path folder, DumpFormat dump_format) : folder_(std::move(folder)), dump_format_(dump_format) {
   make_folder(folder_);
   remove_earlier_run();
+  remove_half_written();
+}
+
+RunFolder::RunFolder(fs::path folder, DumpFormat dump_format, const nlohmann::ordered_json& state)
+    : folder_(std::move(folder)),
+      dump_format_(dump_format),
+      dumped_values_(state.at("dumped_values")),
+      moving_(state.at("moving")),
+      dumped_frames_(state.at("dumped_frames")) {
+  for (const nlohmann::ordered_json& file : state.at("files")) files_.emplace_back(file.get<std::string>());
+  remove_half_written();
+}
+
+nlohmann::ordered_json RunFolder::state() const {
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  for (const fs::path& file : files_) files.push_back(file.generic_string());
+  return {{"files", files}, {"dumped_values", dumped_values_}, {"moving", moving_}, {"dumped_frames", dumped_frames_}};
+}
+
+void RunFolder::add_file(const fs::path& relative) {
+  if (std::find(files_.begin(), files_.end(), relative) == files_.end()) files_.push_back(relative);
+}
+
+void RunFolder::remove_half_written() const {
+  std::error_code ignored;
+  std::vector<fs::path> found;
+  const auto look_at = [&](const fs::directory_entry& entry) {
+    if (is_half_written(entry.path().filename()) && entry.is_regular_file(ignored)) found.push_back(entry.path());
+  };
+  for (const fs::path& folder : {folder_, folder_ / "checkpoint"})
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) look_at(entry);
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_ / "dumps", ignored)) look_at(entry);
+  for (const fs::path& file : found) fs::remove(file, ignored);
 }
 
 void RunFolder::remove_earlier_run() const {

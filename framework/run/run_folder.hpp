@@ -19,6 +19,7 @@ enum class DumpFormat : uint8_t { exr, npy };
 ///   NAME.FFFF.png      2D outputs of 8 bits (display-ready), NAME.FFFF.exr other 2D outputs, .npy volumes
 ///   dumps/FFFF/VALUE.exr | .npy, dumps/FFFF/frame.json (camera and time), and dumps/index.json, which says what each
 ///   of them is (docs/buffers.md)
+///   checkpoint/        what --resume goes on from
 ///   run.json           provenance and times, and the list of all files of the run
 /// Each file appears whole or not at all. Files of an earlier run in the same folder, which its run.json lists, are
 /// removed first, so that no stale frame stays among new ones.
@@ -26,6 +27,8 @@ class RunFolder {
  public:
   /// Throws Error(run_failed) where the folder cannot be made or written.
   explicit RunFolder(std::filesystem::path folder, DumpFormat dump_format = DumpFormat::exr);
+  /// Goes on with a run that was interrupted; `state` is what `state()` gave. Removes what was left half-written.
+  RunFolder(std::filesystem::path folder, DumpFormat dump_format, const nlohmann::ordered_json& state);
 
   /// Writes the triangles that move (scene::Scene says which) to dumps/moving_triangles.npy: shape (n, 5, 1), corners
   /// a, b, c as indices into the scene's vertices, material, object. Each frame's positions of their vertices go to
@@ -36,12 +39,18 @@ class RunFolder {
   /// Writes the index of the dumps and `record` as run.json, with the list of files added.
   void finish(nlohmann::ordered_json record);
 
+  /// What was written so far, for a checkpoint.
+  [[nodiscard]] nlohmann::ordered_json state() const;
+  /// Lists a file that something else wrote into the folder.
+  void add_file(const std::filesystem::path& relative);
+
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
   /// Files written so far, relative to the folder.
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:
   void remove_earlier_run() const;
+  void remove_half_written() const;
   void write_dumps(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions);
   void write_json(const std::filesystem::path& relative, const nlohmann::ordered_json& json);
   void write_image(std::filesystem::path relative, const image::HostImage& image,
