@@ -11,16 +11,18 @@ struct Sums {
   double relative_squared = 0;
   double relative = 0;
   double symmetric = 0;
+  double magnitude = 0;
   double signed_error = 0;
 
   void add(double reference, double test, double epsilon) {
     const double error = test - reference;
-    const double magnitude = std::abs(error);
+    const double size = std::abs(error);
     const double both = std::abs(reference) + std::abs(test);
     squared += error * error;
     relative_squared += error * error / (reference * reference + epsilon);
-    relative += magnitude / (std::abs(reference) + epsilon);
-    symmetric += both > 0 ? 2 * magnitude / both : 0;
+    relative += size / (std::abs(reference) + epsilon);
+    symmetric += both > 0 ? 2 * size / both : 0;
+    magnitude += size;
     signed_error += error;
   }
   void operator+=(const Sums& other) {
@@ -28,6 +30,7 @@ struct Sums {
     relative_squared += other.relative_squared;
     relative += other.relative;
     symmetric += other.symmetric;
+    magnitude += other.magnitude;
     signed_error += other.signed_error;
   }
 };
@@ -63,7 +66,8 @@ void add_classic_errors(const ComparedImages& images, const MetricOptions& optio
   metrics.relmse = sums.relative_squared / count;
   metrics.mape = sums.relative / count;
   metrics.smape = sums.symmetric / count;
-  metrics.mean_error = sums.signed_error / count;
+  metrics.mean_error = sums.magnitude / count;
+  metrics.bias = sums.signed_error / count;
 }
 
 }  // namespace lightloom::image

@@ -5,8 +5,8 @@
 
 namespace lightloom::image {
 
-/// Fills in the figures that are sums over pixels: mse, rmse, psnr, relmse, mape, smape, mean_error, max_error and
-/// fireflies. At least one pixel must be usable.
+/// Fills in the figures that are sums over pixels: mse, rmse, psnr, relmse, mape, smape, mean_error, bias, max_error
+/// and fireflies. At least one pixel must be usable.
 void add_classic_errors(const ComparedImages& images, const MetricOptions& options, Metrics& metrics);
 
 }  // namespace lightloom::image

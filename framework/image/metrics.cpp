@@ -57,7 +57,7 @@ uint64_t count_clamped(const ComparedImages& images) {
 Metrics without_pixels() {
   Metrics metrics;
   for (double* figure : {&metrics.mse, &metrics.rmse, &metrics.psnr, &metrics.relmse, &metrics.mape, &metrics.smape,
-                         &metrics.ssim, &metrics.flip, &metrics.mean_error, &metrics.max_error})
+                         &metrics.ssim, &metrics.flip, &metrics.mean_error, &metrics.max_error, &metrics.bias})
     *figure = kNan;
   return metrics;
 }

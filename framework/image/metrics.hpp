@@ -30,8 +30,9 @@ struct Metrics {
   double smape = 0;       ///< mean of 2 |T - R| / (|T| + |R|), 0..2, 0 where both are 0
   double ssim = 0;        ///< of luminance, 11x11 Gaussian of sigma 1.5, where the window lies within the image
   double flip = 0;        ///< mean FLIP, 0..1
-  double mean_error = 0;  ///< mean of T - R: negative where the test is too dark
+  double mean_error = 0;  ///< mean of |T - R|
   double max_error = 0;   ///< largest |T - R|
+  double bias = 0;        ///< mean of T - R: negative where the test is too dark
   uint64_t fireflies = 0;
   uint64_t non_finite = 0;            ///< pixels of the test with a NaN or an infinity
   uint64_t reference_non_finite = 0;  ///< pixels of the reference with one

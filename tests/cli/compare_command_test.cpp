@@ -23,8 +23,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::vector<std::string> kKeys = {"mse",  "rmse", "psnr",       "relmse",    "mape",      "smape",
-                                        "ssim", "flip", "mean_error", "max_error", "fireflies", "non_finite"};
+const std::vector<std::string> kKeys = {"mse",  "rmse",       "psnr",      "relmse",    "mape",       "smape", "ssim",
+                                        "flip", "mean_error", "max_error", "fireflies", "non_finite", "bias"};
 
 class CompareCommand : public ::testing::Test {
  protected:
@@ -134,12 +134,12 @@ TEST_F(CompareCommand, eight_bits_are_made_linear_and_measured_as_display_values
   const std::string r = png("r.png", 188), t = png("t.png", 255);
   const double linear = std::pow((188 / 255.0 + 0.055) / 1.055, 2.4);
   nlohmann::ordered_json json = run_json({r, t});
-  EXPECT_NEAR(json["mean_error"], 1 - linear, 1e-6);
+  EXPECT_NEAR(json["bias"], 1 - linear, 1e-6);
   const auto grey = [](double v) { return image::constant_image(16, 12, {v, v, v}); };
   image::MetricOptions ldr;
   ldr.flip = image::FlipKind::ldr;
   EXPECT_NEAR(json["flip"], image::compare(grey(linear), grey(1), ldr).flip, 1e-5);
-  EXPECT_NEAR(run_json({r, t, "--linear"})["mean_error"], 1 - 188 / 255.0, 1e-6);
+  EXPECT_NEAR(run_json({r, t, "--linear"})["bias"], 1 - 188 / 255.0, 1e-6);
   EXPECT_NEAR(run_json({r, t, "--flip", "hdr"})["flip"], image::compare(grey(linear), grey(1)).flip, 1e-5);
   EXPECT_EQ(run({r, t}), 0);
   EXPECT_THAT(out_, AllOf(HasSubstr("sRGB transfer function removed"), HasSubstr("LDR")));

@@ -33,6 +33,7 @@ std::vector<double> figures(const Metrics& m) {
           m.flip,
           m.mean_error,
           m.max_error,
+          m.bias,
           double(m.fireflies),
           double(m.non_finite),
           double(m.reference_non_finite)};
@@ -69,7 +70,7 @@ TEST(Metrics, an_image_has_no_error_against_itself) {
     EXPECT_EQ(metrics.psnr, kInfinity);
     EXPECT_EQ(metrics.ssim, 1);
     for (const double zero : {metrics.mse, metrics.rmse, metrics.relmse, metrics.mape, metrics.smape, metrics.flip,
-                              metrics.mean_error, metrics.max_error})
+                              metrics.mean_error, metrics.max_error, metrics.bias})
       EXPECT_EQ(zero, 0);
     EXPECT_EQ(metrics.fireflies + metrics.non_finite + metrics.clamped, 0u);
   }
@@ -83,7 +84,8 @@ TEST(Metrics, exchange_of_the_images_changes_only_what_is_relative_to_the_refere
   EXPECT_EQ(there.mse, back.mse);
   EXPECT_EQ(there.smape, back.smape);
   EXPECT_EQ(there.flip, back.flip);
-  EXPECT_EQ(there.mean_error, -back.mean_error);
+  EXPECT_EQ(there.mean_error, back.mean_error);
+  EXPECT_EQ(there.bias, -back.bias);
   EXPECT_EQ(there.max_error, back.max_error);
   EXPECT_NEAR(there.ssim, back.ssim, 1e-14);
   EXPECT_NE(there.relmse, back.relmse);
@@ -210,7 +212,7 @@ TEST(Metrics, without_any_finite_pixel_nothing_is_claimed) {
   const Metrics metrics = compare(constant_image(20, 15, {1, 1, 1}), nothing);
   EXPECT_EQ(metrics.non_finite, 300u);
   for (const double figure : {metrics.mse, metrics.rmse, metrics.psnr, metrics.relmse, metrics.mape, metrics.smape,
-                              metrics.ssim, metrics.flip, metrics.mean_error, metrics.max_error})
+                              metrics.ssim, metrics.flip, metrics.mean_error, metrics.max_error, metrics.bias})
     EXPECT_TRUE(std::isnan(figure));
 }
 
@@ -275,10 +277,11 @@ TEST(Metrics, fireflies_are_pixels_far_brighter_than_the_reference) {
   EXPECT_EQ(count(1, 1, 0, 10), 0u);
 }
 
-TEST(Metrics, errors_keep_their_sign_in_the_mean) {
+TEST(Metrics, errors_keep_their_sign_in_the_bias) {
   const HostImage grey = constant_image(4, 4, {0.5, 0.5, 0.5});
-  const Metrics metrics = compare(grey, with_pixel(grey, 1, 1, {0.5, 0.1, 0.5}));
-  EXPECT_NEAR(metrics.mean_error, -0.4 / 48, 1e-9);
+  const Metrics metrics = compare(grey, with_pixel(grey, 1, 1, {0.5, 0.1, 0.7}));
+  EXPECT_NEAR(metrics.bias, -0.2 / 48, 1e-9);
+  EXPECT_NEAR(metrics.mean_error, 0.6 / 48, 1e-9);
   EXPECT_NEAR(metrics.max_error, 0.4, 1e-7);
 }
 
