@@ -54,8 +54,8 @@ std::vector<Port> ports() {
                    "rgb: radiance towards the viewer [W m^-2 sr^-1], with the surface's emission, unlit surfaces and "
                    "the background; a: 1, or 0 for the background"),
       light_output("standard_error",
-                   "rgb: standard deviation of the mean in outgoing, estimated from the paths of this frame; 0 with "
-                   "a single path, of which it is not known; a: 1")};
+                   "rgb: standard error of the mean in outgoing, estimated from the paths of this frame; 10000 with a "
+                   "single path, of which it is not known; a: 1")};
 }
 
 Param choice(std::string name, std::string default_value, std::vector<std::string> choices, std::string doc) {

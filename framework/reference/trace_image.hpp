@@ -12,6 +12,9 @@
 
 namespace lightloom::reference {
 
+/// Standard error of what was estimated once, as pass `accumulate` writes it.
+constexpr float kUnknownError = 1e4f;
+
 /// Mean and spread of one pixel's paths, in double: a float sum of 65536 bright paths would lose digits.
 class PixelMean {
  public:
@@ -23,9 +26,9 @@ class PixelMean {
     squares_ += step * (wide - mean_);
   }
   [[nodiscard]] glm::vec3 mean() const { return glm::vec3(mean_); }
-  /// Standard deviation of the mean; 0 for a single value, of which it is not known.
+  /// Standard deviation of the mean; kUnknownError with a single value.
   [[nodiscard]] glm::vec3 standard_error() const {
-    if (count_ < 2) return glm::vec3(0);
+    if (count_ < 2) return glm::vec3(kUnknownError);
     const auto n = static_cast<double>(count_);
     return glm::vec3(glm::sqrt(squares_ / (n - 1) / n));
   }
@@ -107,10 +110,11 @@ void trace_image(const G& geometry, const Lights& lights, const ImageSettings& s
       if (shared_first_hit && !vertex) break;
     }
     not_finite += sums.not_finite;
-    const float share = 1.0f / static_cast<float>(shared_first_hit && !vertex ? 1 : settings.paths);
+    const bool same_for_all = shared_first_hit && !vertex;
+    const float share = 1.0f / static_cast<float>(same_for_all ? 1 : settings.paths);
     write(x, y,
           {sums.radiance.mean(), sums.diffuse.mean(), sums.specular.mean(), sums.outgoing.mean(),
-           sums.outgoing.standard_error(), static_cast<float>(sums.lit) * share,
+           same_for_all ? glm::vec3(0) : sums.outgoing.standard_error(), static_cast<float>(sums.lit) * share,
            static_cast<float>(sums.covered) * share});
   };
   constexpr uint32_t kTile = 16;
