@@ -51,11 +51,46 @@ std::vector<VkImageUsageFlags> usages(const Graph& graph) {
   return result;
 }
 
+/// One image a value, or one a layer for the ring of a volume.
+std::vector<gpu::Image> unbound_images(const gpu::Device& device, const Value& value, VkImageUsageFlags usage) {
+  const bool volume = value.desc.dimension == Dimension::d3;
+  const gpu::ImageSpec spec{.format = gpu::vulkan_format(value.desc.format),
+                            .dimension = value.desc.dimension,
+                            .extent = value.desc.extent,
+                            .layers = volume ? 1 : ring_layers(value),
+                            .mip_levels = 1,
+                            .usage = usage,
+                            .name = value_name(value)};
+  std::vector<gpu::Image> images;
+  for (uint32_t i = 0; i < (volume ? ring_layers(value) : 1); ++i) images.push_back(gpu::Image::unbound(device, spec));
+  return images;
+}
+
+MemoryNeed need_of(const gpu::Image& image) {
+  const VkMemoryRequirements& requirements = image.requirements();
+  return {requirements.size, requirements.alignment, requirements.memoryTypeBits};
+}
+
 }  // namespace
+
+std::vector<MemoryNeed> memory_needs(const gpu::Device& device, const Graph& graph) {
+  const std::vector<VkImageUsageFlags> usage = usages(graph);
+  std::vector<MemoryNeed> needs;
+  for (size_t id = 0; id < graph.values.size(); ++id)
+    needs.push_back(need_of(unbound_images(device, graph.values[id], usage[id]).front()));
+  return needs;
+}
 
 ValueImages::ValueImages(const gpu::Device& device, Plan& plan, bool share_them) {
   require_room(plan.graph, room_of(device));
-  create(device, plan.graph);
+  const std::vector<VkImageUsageFlags> usage = usages(plan.graph);
+  for (size_t id = 0; id < plan.graph.values.size(); ++id) {
+    const Value& value = plan.graph.values[id];
+    Entry entry;
+    entry.images = unbound_images(device, value, usage[id]);
+    entry.layers = ring_layers(value);
+    entries_.push_back(std::move(entry));
+  }
   sharing_.places.resize(entries_.size());
   if (share_them) sharing_ = share(device, plan);
   bind(device);
@@ -64,32 +99,9 @@ ValueImages::ValueImages(const gpu::Device& device, Plan& plan, bool share_them)
       if (barrier.takes_over) entries_[barrier.value].taken_over = true;
 }
 
-void ValueImages::create(const gpu::Device& device, const Graph& graph) {
-  const std::vector<VkImageUsageFlags> usage = usages(graph);
-  for (size_t id = 0; id < graph.values.size(); ++id) {
-    const Value& value = graph.values[id];
-    Entry entry;
-    entry.layers = ring_layers(value);
-    const bool volume = value.desc.dimension == Dimension::d3;
-    const gpu::ImageSpec spec{.format = gpu::vulkan_format(value.desc.format),
-                              .dimension = value.desc.dimension,
-                              .extent = value.desc.extent,
-                              .layers = volume ? 1 : entry.layers,
-                              .mip_levels = 1,
-                              .usage = usage[id],
-                              .name = value_name(value)};
-    for (uint32_t i = 0; i < (volume ? entry.layers : 1); ++i)
-      entry.images.push_back(gpu::Image::unbound(device, spec));
-    entries_.push_back(std::move(entry));
-  }
-}
-
 MemorySharing ValueImages::share(const gpu::Device& device, Plan& plan) const {
   std::vector<MemoryNeed> needs;
-  for (const Entry& entry : entries_) {
-    const VkMemoryRequirements& requirements = entry.images.front().requirements();
-    needs.push_back({requirements.size, requirements.alignment, requirements.memoryTypeBits});
-  }
+  for (const Entry& entry : entries_) needs.push_back(need_of(entry.images.front()));
   Plan shared = plan;
   MemorySharing sharing = share_memory(shared, needs);
   const uint64_t limit = device.info().max_allocation_bytes;

@@ -51,7 +51,6 @@ class ValueImages {
     bool shares = false;      ///< lies in a heap
     bool taken_over = false;  ///< its memory is somebody else's at other times
   };
-  void create(const gpu::Device& device, const Graph& graph);
   [[nodiscard]] MemorySharing share(const gpu::Device& device, Plan& plan) const;
   void bind(const gpu::Device& device);
 
@@ -59,6 +58,9 @@ class ValueImages {
   MemorySharing sharing_;
   std::vector<Entry> entries_;
 };
+
+/// What the device says the values' images need, one entry a value. Binds no memory.
+[[nodiscard]] std::vector<MemoryNeed> memory_needs(const gpu::Device& device, const Graph& graph);
 
 /// Fills one layer (all layers: `layer` = VK_REMAINING_ARRAY_LAYERS) of an image in GENERAL with a colour; depth images
 /// take its first component, unsigned formats its components cast to unsigned.

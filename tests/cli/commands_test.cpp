@@ -163,6 +163,15 @@ TEST_F(Commands, plan_prints_what_runs_and_what_does_not) {
   EXPECT_THAT(out_, AllOf(HasSubstr(", 0 of them once,"), HasSubstr("voxelize_static")));
 }
 
+TEST_F(Commands, plan_shows_the_memory_and_verifies) {
+  EXPECT_EQ(run({"plan", kGraph, "--scene", kScene, "--size", "64x48", "--set", "resolution=16"}), 0);
+  EXPECT_THAT(out_, Not(HasSubstr("takes over the memory")));
+  EXPECT_EQ(
+      run({"plan", kGraph, "--scene", kScene, "--size", "64x48", "--set", "resolution=16", "--memory", "--verify"}), 0);
+  EXPECT_THAT(out_, AllOf(HasSubstr("takes over the memory of"), HasSubstr("no sharing needs less than"),
+                          HasSubstr("verified over 12 frames"), HasSubstr("no violation")));
+}
+
 TEST_F(Commands, a_mistake_in_an_option_is_usage_and_one_in_the_graph_is_invalid_input) {
   EXPECT_EQ(run({"plan", kGraph, "--set", "resolutio=3"}), 2);
   EXPECT_THAT(err_, HasSubstr("did you mean 'resolution'?"));

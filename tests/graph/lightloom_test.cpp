@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "framework/base/file.hpp"
-#include "tests/graph/hazard_checker.hpp"
+#include "framework/graph/verify.hpp"
 #include "tests/graph/real_passes.hpp"
 #include "tests/graph/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
@@ -70,12 +70,14 @@ TEST(LightloomGraph, EveryVariantAndEveryStageAloneLinksWithoutHazard) {
       LinkOptions options;
       options.disables = {glob};
       options.captures = {"*"};
-      EXPECT_EQ(find_hazards(compile(lightloom_graph(options, specular)), 1), std::vector<std::string>{}) << glob;
+      EXPECT_EQ(verify(compile(lightloom_graph(options, specular)), {}, 1).violations, std::vector<std::string>{})
+          << glob;
     }
     for (const char* variant : {"no_denoise", "no_temporal", "raw", "paths15", "isotropic"}) {
       LinkOptions options;
       options.variants = {variant};
-      EXPECT_EQ(find_hazards(compile(lightloom_graph(options, specular)), 1), std::vector<std::string>{}) << variant;
+      EXPECT_EQ(verify(compile(lightloom_graph(options, specular)), {}, 1).violations, std::vector<std::string>{})
+          << variant;
     }
   }
 }

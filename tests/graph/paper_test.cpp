@@ -6,7 +6,7 @@
 
 #include "framework/base/file.hpp"
 #include "framework/base/text.hpp"
-#include "tests/graph/hazard_checker.hpp"
+#include "framework/graph/verify.hpp"
 #include "tests/graph/real_passes.hpp"
 #include "tests/graph/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
@@ -34,7 +34,7 @@ TEST(PaperGraph, RunsEveryStageInADynamicScene) {
   EXPECT_EQ(plan.graph.passes[plan.once.front().pass].name, "voxelize_static");
   EXPECT_EQ(plan.steps.size(), 14U);
   EXPECT_TRUE(plan.graph.culled.empty());
-  EXPECT_EQ(find_hazards(plan), std::vector<std::string>{});
+  EXPECT_EQ(verify(plan).violations, std::vector<std::string>{});
 }
 
 TEST(PaperGraph, AStaticSceneNeedsNoDynamicVoxels) {
@@ -53,12 +53,12 @@ TEST(PaperGraph, EveryVariantAndEveryDenoiserAloneLinksWithoutHazard) {
       LinkOptions options;
       options.disables = globs;
       options.captures = {"*"};
-      EXPECT_EQ(find_hazards(compile(paper(options, dynamic)), 1), std::vector<std::string>{}) << globs[0];
+      EXPECT_EQ(verify(compile(paper(options, dynamic)), {}, 1).violations, std::vector<std::string>{}) << globs[0];
     }
     for (const char* variant : {"no_denoise", "no_temporal", "raw", "paths15"}) {
       LinkOptions options;
       options.variants = {variant};
-      EXPECT_EQ(find_hazards(compile(paper(options, dynamic)), 1), std::vector<std::string>{}) << variant;
+      EXPECT_EQ(verify(compile(paper(options, dynamic)), {}, 1).violations, std::vector<std::string>{}) << variant;
     }
   }
 }
@@ -196,7 +196,7 @@ TEST(GraphFuzz, MutantsGiveDiagnosticsOrAPlanThatHolds) {
     const Plan plan = compile(*result.graph);
     ASSERT_FALSE(print_plan(plan).empty());
     if (i % 10 != 0) continue;
-    ASSERT_EQ(find_hazards(plan, 1), std::vector<std::string>{}) << mutant;
+    ASSERT_EQ(verify(plan, {}, 1).violations, std::vector<std::string>{}) << mutant;
   }
   EXPECT_GT(valid, 150);
   EXPECT_GT(beyond_syntax, 2000);

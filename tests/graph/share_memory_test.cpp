@@ -6,7 +6,7 @@
 #include <set>
 
 #include "framework/base/file.hpp"
-#include "tests/graph/hazard_checker.hpp"
+#include "framework/graph/verify.hpp"
 #include "tests/graph/random_graph.hpp"
 #include "tests/graph/real_passes.hpp"
 #include "tests/graph/toy_graphs.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/base/text.hpp"
-#include "tests/graph/hazard_checker.hpp"
+#include "framework/graph/verify.hpp"
 #include "tests/graph/random_graph.hpp"
 #include "tests/graph/toy_graphs.hpp"
 
@@ -66,7 +66,7 @@ TEST(Synchronise, OneBarrierServesAllReadersOfOneKind) {
   EXPECT_EQ(on_value(plan, "s.a"),
             (std::vector<std::string>{"compute_sampled_read -> compute_storage_write (previous frame)",
                                       "compute_storage_write -> compute_sampled_read"}));
-  EXPECT_TRUE(find_hazards(plan).empty());
+  EXPECT_TRUE(verify(plan).violations.empty());
 }
 
 TEST(Synchronise, ReadersOfOtherStagesAreWidenedInAtTheFirst) {
@@ -98,7 +98,7 @@ TEST(Synchronise, OwnHistoryIsASteadyRound) {
             (std::vector<std::string>{"transfer_write -> compute_storage_write",
                                       "compute_storage_write -> compute_sampled_read (previous frame)",
                                       "compute_sampled_read -> compute_storage_write (previous frame)"}));
-  EXPECT_TRUE(find_hazards(plan).empty());
+  EXPECT_TRUE(verify(plan).violations.empty());
 }
 
 TEST(Synchronise, CopiesStandRightBehindTheProducer) {
@@ -109,7 +109,7 @@ TEST(Synchronise, CopiesStandRightBehindTheProducer) {
     ASSERT_EQ(step.copies.size(), 1U);
     EXPECT_EQ(plan.graph.values[step.copies[0].value].pass, plan.graph.passes[step.pass].name);
   }
-  EXPECT_TRUE(find_hazards(plan).empty());
+  EXPECT_TRUE(verify(plan).violations.empty());
 }
 
 TEST(Synchronise, ConstantsAreClearedOnceAndNeverWaitedForAgain) {
@@ -126,7 +126,7 @@ TEST(Synchronise, ConstantsAreClearedOnceAndNeverWaitedForAgain) {
   EXPECT_EQ(toy::order(plan), std::vector<std::string>{"f"});
   EXPECT_EQ(on_value(plan, "b.a"),
             (std::vector<std::string>{"transfer_write -> compute_sampled_read", "transfer_write -> transfer_read"}));
-  EXPECT_TRUE(find_hazards(plan).empty());
+  EXPECT_TRUE(verify(plan).violations.empty());
 }
 
 TEST(Synchronise, WhatIsWrittenOnceIsWaitedForOnce) {
@@ -148,7 +148,7 @@ TEST(Synchronise, WhatIsWrittenOnceIsWaitedForOnce) {
   EXPECT_EQ(on_value(plan, "m.tmp"), (std::vector<std::string>{"compute_storage_read_write -> transfer_read"}));
   EXPECT_EQ(on_value(plan, "h.a"), (std::vector<std::string>{"color_attachment_write -> transfer_read"}));
   EXPECT_EQ(plan.opening_copies.size(), 3U);
-  EXPECT_TRUE(find_hazards(plan).empty());
+  EXPECT_TRUE(verify(plan).violations.empty());
 }
 
 TEST(Synchronise, APersistentValueIsClearedOnceAndThenARound) {
@@ -163,7 +163,7 @@ TEST(Synchronise, APersistentValueIsClearedOnceAndThenARound) {
   EXPECT_EQ(on_value(plan, "p.memo"),
             (std::vector<std::string>{"transfer_write -> compute_storage_read_write",
                                       "compute_storage_read_write -> compute_storage_read_write (previous frame)"}));
-  EXPECT_TRUE(find_hazards(plan).empty());
+  EXPECT_TRUE(verify(plan).violations.empty());
 }
 
 struct Mutants {
@@ -178,7 +178,7 @@ void expect_minimal(const Plan& plan, Mutants& mutants) {
   const std::vector<Barrier> barriers = all_barriers(plan);
   for (std::size_t n = 0; n < barriers.size(); ++n) {
     const Barrier& barrier = barriers[n];
-    const auto found = [&](auto change) { return !find_hazards(mutated(plan, n, change), 1).empty(); };
+    const auto found = [&](auto change) { return !verify(mutated(plan, n, change), {}, 1).violations.empty(); };
     if (!found([](auto& list, std::size_t i) { list.erase(list.begin() + static_cast<std::ptrdiff_t>(i)); })) {
       ++mutants.superfluous;
       EXPECT_EQ(barrier.hazard, Hazard::write_after_read) << print_plan(plan);
@@ -204,7 +204,7 @@ TEST(Synchronise, RandomGraphsHaveNoHazardAndNoSuperfluousBarrier) {
     if (seed % 3 == 1) options.captures = {"*"};
     if (seed % 3 == 2) options.captures = {"p?.*"};
     const Plan plan = plan_of(toy::random_graph(seed, 3 + static_cast<int>(seed % 12)), options);
-    const std::vector<std::string> hazards = find_hazards(plan);
+    const std::vector<std::string> hazards = verify(plan).violations;
     ASSERT_TRUE(hazards.empty()) << "seed " << seed << ": " << join(hazards, "\n") << "\n" << print_plan(plan);
     if (seed < 60) expect_minimal(plan, mutants);
     if (testing::Test::HasFailure()) FAIL() << "seed " << seed;
@@ -225,27 +225,27 @@ TEST(Synchronise, RandomGraphsHaveNoHazardAndNoSuperfluousBarrier) {
   EXPECT_GT(kept, 50U);
 }
 
-TEST(HazardChecker, SeesAReadOfTheWrongFrame) {
+TEST(Verify, SeesAReadOfTheWrongFrame) {
   Plan plan = plan_of(file(R"("s": {"type": "source"}, "t": {"type": "trail", "in": {"x": "s.a", "past": "s.a@1..3"}})",
                            R"("o": "t.a")"));
-  ASSERT_TRUE(find_hazards(plan).empty());
+  ASSERT_TRUE(verify(plan).violations.empty());
   for (Value& value : plan.graph.values)
     if (value.history > 0) --value.history;  // a ring that is one layer short
-  EXPECT_FALSE(find_hazards(plan).empty());
+  EXPECT_FALSE(verify(plan).violations.empty());
 }
 
-TEST(HazardChecker, SeesAMissingClear) {
+TEST(Verify, SeesAMissingClear) {
   Plan plan = plan_of(file(R"("s": {"type": "source"}, "t": {"type": "trail", "in": {"x": "s.a", "past": "s.a@1..3"}})",
                            R"("o": "t.a")"));
   plan.prologue.clear();
-  EXPECT_FALSE(find_hazards(plan).empty());
+  EXPECT_FALSE(verify(plan).violations.empty());
 }
 
-TEST(HazardChecker, SeesAPersistentValueThatWasNeverCleared) {
+TEST(Verify, SeesAPersistentValueThatWasNeverCleared) {
   Plan plan = plan_of(file(R"("s": {"type": "source"}, "p": {"type": "patch", "in": {"x": "s.a"}})", R"("o": "p.a")"));
-  ASSERT_TRUE(find_hazards(plan).empty());
+  ASSERT_TRUE(verify(plan).violations.empty());
   plan.prologue.clear();
-  EXPECT_FALSE(find_hazards(plan).empty());
+  EXPECT_FALSE(verify(plan).violations.empty());
 }
 
 }  // namespace

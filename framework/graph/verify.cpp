@@ -1,0 +1,187 @@
+#include "framework/graph/verify.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "framework/graph/verify_trace.hpp"
+
+namespace lightloom {
+namespace {
+
+using verification::Event;
+using verification::kPrologue;
+using verification::kUndefined;
+using verification::Piece;
+using verification::Trace;
+
+bool within(uint64_t part, uint64_t whole) {
+  return (part & ~whole) == 0;
+}
+
+/// Access bits that write; the others only read.
+constexpr VkAccessFlags2 kWriteBits = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
+                                      VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+                                      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+
+/// How far one access has come by the barriers after it.
+class Reach {
+ public:
+  explicit Reach(const AccessInfo& source) : source_(source) {}
+
+  void pass(const AccessInfo& from, const AccessInfo& to) {
+    const bool direct = within(source_.stages, from.stages);
+    if (!direct && (stages_ & from.stages) == 0) return;
+    stages_ |= to.stages;
+    available_ = available_ || (direct && within(source_.access & kWriteBits, from.access));
+    if (available_) visible_.emplace_back(to.stages, to.access);
+  }
+
+  /// Is the access done, and its writes available, when something begins that waits for `stages` and `access`?
+  [[nodiscard]] bool ends_before(VkPipelineStageFlags2 stages, VkAccessFlags2 access) const {
+    const bool direct = within(source_.stages, stages);
+    if (!direct && (stages_ & stages) == 0) return false;
+    return !source_.writes || available_ || (direct && within(source_.access & kWriteBits, access));
+  }
+
+  [[nodiscard]] bool covers(const AccessInfo& target) const {
+    if (!within(target.stages, stages_)) return false;
+    if (!source_.writes) return true;
+    return std::any_of(visible_.begin(), visible_.end(), [&](const auto& scope) {
+      return within(target.stages, scope.first) && within(target.access, scope.second);
+    });
+  }
+
+ private:
+  const AccessInfo& source_;
+  VkPipelineStageFlags2 stages_ = 0;
+  bool available_ = false;
+  std::vector<std::pair<VkPipelineStageFlags2, VkAccessFlags2>> visible_;
+};
+
+class Judge {
+ public:
+  Judge(const Plan& plan, std::size_t limit, Verification& result) : plan_(plan), limit_(limit), result_(result) {}
+
+  void check(const Trace& trace) {
+    contents(trace);
+    for (std::size_t i = 0; i < trace.size() && !full(); ++i)
+      if (trace[i].kind == Event::Kind::access)
+        order(trace, i);
+      else if (trace[i].kind == Event::Kind::takeover)
+        begins(trace, i);
+  }
+
+ private:
+  [[nodiscard]] bool full() const { return result_.violations.size() >= limit_; }
+
+  [[nodiscard]] std::string name(ValueId value) const {
+    return value == kFrameInputs ? "frame inputs" : value_name(plan_.graph.values[value]);
+  }
+
+  void complain(ValueId value, const std::string& sentence) {
+    const std::string text = name(value) + ": " + sentence;
+    const auto& known = result_.violations;
+    if (!full() && std::find(known.begin(), known.end(), text) == known.end()) result_.violations.push_back(text);
+  }
+
+  static std::string frame_text(int frame) {
+    if (frame == kUndefined) return "what is undefined";
+    return frame == kPrologue ? "the clear" : "what frame " + std::to_string(frame) + " wrote";
+  }
+
+  /// Follows what the piece holds.
+  void contents(const Trace& trace) {
+    constexpr ValueId kNobody = kFrameInputs - 1;
+    ValueId holder = kNobody;
+    int content = kUndefined;
+    for (const Event& event : trace) {
+      if (full()) return;
+      if (event.kind == Event::Kind::barrier) continue;
+      if (event.kind == Event::Kind::takeover) {
+        holder = event.value;
+        content = kUndefined;
+        continue;
+      }
+      const bool writes = access_info(event.access).writes;
+      if (holder != event.value && holder != kNobody) {
+        complain(event.value, event.who + " touches memory that holds " + name(holder) + " and was not taken over");
+        return;
+      }
+      const bool expects = !writes || event.content != kUndefined;
+      if (expects && event.frame != kPrologue && content != event.content)
+        complain(event.value, event.who + " finds " + frame_text(content) + " instead of " + frame_text(event.content));
+      holder = event.value;
+      if (writes) content = event.frame;
+    }
+  }
+
+  /// Holds every later access that conflicts with the one at `first` against the barriers between.
+  void order(const Trace& trace, std::size_t first) {
+    const AccessInfo& source = access_info(trace[first].access);
+    Reach reach(source);
+    for (std::size_t i = first + 1; i < trace.size(); ++i) {
+      const Event& event = trace[i];
+      if (event.kind == Event::Kind::takeover && !taken_over(trace, i, reach)) {
+        complain(event.value, "takes memory over before " + trace[first].who + " (" + std::string(source.name) +
+                                  ") is done with " + name(trace[first].value));
+        return;
+      }
+      if (event.kind != Event::Kind::access) {
+        reach.pass(access_info(event.from), access_info(event.access));
+        continue;
+      }
+      const AccessInfo& target = access_info(event.access);
+      if (!source.writes && !target.writes) continue;
+      ++result_.pairs;
+      if (reach.covers(target)) continue;
+      complain(event.value, trace[first].who + " (" + std::string(source.name) + ") and " + event.who + " (" +
+                                std::string(target.name) + ") are not ordered" +
+                                (event.frame != trace[first].frame ? " from frame to frame" : ""));
+      return;
+    }
+  }
+
+  /// Its first access must wait for the change of layout, by one of the takeovers recorded together.
+  void begins(const Trace& trace, std::size_t at) {
+    for (std::size_t i = at + 1; i < trace.size(); ++i) {
+      if (trace[i].kind != Event::Kind::access) continue;
+      const AccessInfo& target = access_info(trace[i].access);
+      const AccessInfo& reached = access_info(trace[at].access);
+      if (!within(target.stages, reached.stages) || !within(target.access, reached.access))
+        complain(trace[i].value, trace[i].who + " does not wait for the memory to be taken over");
+      return;
+    }
+  }
+
+  /// The change of layout writes, behind all that the takeovers recorded together wait for.
+  static bool taken_over(const Trace& trace, std::size_t at, const Reach& reach) {
+    VkPipelineStageFlags2 stages = 0;
+    VkAccessFlags2 access = 0;
+    const auto together = [&](const Event& event) {
+      return event.kind == Event::Kind::takeover && event.value == trace[at].value;
+    };
+    std::size_t begin = at;
+    while (begin > 0 && together(trace[begin - 1])) --begin;
+    for (std::size_t i = begin; i < trace.size() && together(trace[i]); ++i) {
+      stages |= access_info(trace[i].from).stages;
+      access |= access_info(trace[i].from).access;
+    }
+    return reach.ends_before(stages, access);
+  }
+
+  const Plan& plan_;
+  std::size_t limit_;
+  Verification& result_;
+};
+
+}  // namespace
+
+Verification verify(const Plan& plan, const PlannedMemory& memory, std::size_t limit) {
+  Verification result;
+  const std::map<Piece, Trace> traces = verification::play(plan, memory, result);
+  Judge judge(plan, limit, result);
+  for (const auto& [piece, trace] : traces) judge.check(trace);
+  return result;
+}
+
+}  // namespace lightloom

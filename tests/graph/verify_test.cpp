@@ -1,0 +1,159 @@
+#include "framework/graph/verify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "framework/base/file.hpp"
+#include "framework/base/text.hpp"
+#include "tests/graph/random_graph.hpp"
+#include "tests/graph/real_passes.hpp"
+#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/source_dir.hpp"
+
+namespace lightloom {
+namespace {
+
+using toy::file;
+using toy::plan_of;
+
+std::vector<MemoryNeed> needs_of(const Graph& graph) {
+  std::vector<MemoryNeed> needs;
+  for (const Value& value : graph.values) needs.push_back({byte_size(value), 256, 1});
+  return needs;
+}
+
+/// A plan with the memory that its values share.
+struct Case {
+  Plan plan;
+  std::vector<MemoryNeed> needs;
+  MemorySharing sharing;
+
+  explicit Case(Plan from) : plan(std::move(from)), needs(needs_of(plan.graph)), sharing(share_memory(plan, needs)) {}
+  [[nodiscard]] std::vector<std::string> violations() const { return verify(plan, {&sharing, needs}, 1).violations; }
+};
+
+TEST(Verify, RandomGraphsThatShareMemoryAreSound) {
+  uint64_t pairs = 0;
+  for (uint32_t seed = 0; seed < 150; ++seed) {
+    LinkOptions options;
+    if (seed % 3 == 1) options.captures = {"*"};
+    const Case one(plan_of(toy::random_graph(seed, 3 + static_cast<int>(seed % 20)), options));
+    const Verification result = verify(one.plan, {&one.sharing, one.needs});
+    ASSERT_TRUE(result.violations.empty()) << "seed " << seed << ": " << join(result.violations, "\n") << "\n"
+                                           << print_plan(one.plan);
+    EXPECT_GE(result.frames, 3u);
+    pairs += result.pairs;
+  }
+  EXPECT_GT(pairs, 100'000u);
+}
+
+struct Count {
+  uint32_t caught = 0;
+  uint32_t redundant = 0;
+};
+
+/// Mutants of what sharing added: a takeover that is gone, or waits for somebody else, or reaches somebody else.
+void mutate_takeovers(const Case& sound, Count& count) {
+  for (std::size_t step = 0; step < sound.plan.steps.size(); ++step) {
+    for (std::size_t n = 0; n < sound.plan.steps[step].barriers.size(); ++n) {
+      if (!sound.plan.steps[step].barriers[n].takes_over) continue;
+      Case mutant = sound;
+      std::vector<Barrier>& list = mutant.plan.steps[step].barriers;
+      list[n].from = Access::host_read;
+      const bool source = !mutant.violations().empty();
+      // Where two accesses are waited for, the stages of one may be those of the other.
+      const bool alone = std::count_if(list.begin(), list.end(), [&](const Barrier& other) {
+                           return other.takes_over && other.value == list[n].value;
+                         }) == 1;
+      EXPECT_TRUE(source || !alone) << print_plan(sound.plan);
+      ++(source ? count.caught : count.redundant);
+      if (!alone) continue;
+      list[n] = sound.plan.steps[step].barriers[n];
+      list[n].to = Access::host_read;
+      EXPECT_FALSE(mutant.violations().empty()) << print_plan(sound.plan);
+      list.erase(list.begin() + static_cast<std::ptrdiff_t>(n));
+      EXPECT_FALSE(mutant.violations().empty()) << print_plan(sound.plan);
+      count.caught += 2;
+    }
+  }
+}
+
+/// Every value moved to where each other one begins. Harmless only if the two, and all between, still take turns.
+void mutate_offsets(const Case& sound, Count& count) {
+  for (ValueId moved = 0; moved < sound.needs.size(); ++moved) {
+    for (ValueId target = 0; target < sound.needs.size(); ++target) {
+      if (!sound.sharing.places[moved] || !sound.sharing.places[target] ||
+          sound.sharing.places[moved]->offset == sound.sharing.places[target]->offset)
+        continue;
+      Case mutant = sound;
+      mutant.sharing.places[moved] = sound.sharing.places[target];
+      ++(mutant.violations().empty() ? count.redundant : count.caught);
+    }
+  }
+}
+
+void swap_steps(const Case& sound, Count& count) {
+  for (std::size_t step = 0; step + 1 < sound.plan.steps.size(); ++step) {
+    Case mutant = sound;
+    std::swap(mutant.plan.steps[step], mutant.plan.steps[step + 1]);
+    ++(mutant.violations().empty() ? count.redundant : count.caught);
+  }
+}
+
+TEST(Verify, MutantsAreCaught) {
+  Count takeovers;
+  Count offsets;
+  Count swaps;
+  for (uint32_t seed = 0; seed < 40; ++seed) {
+    const Case sound(plan_of(toy::random_graph(seed, 12)));
+    ASSERT_TRUE(sound.violations().empty());
+    mutate_takeovers(sound, takeovers);
+    mutate_offsets(sound, offsets);
+    swap_steps(sound, swaps);
+    if (HasFailure()) FAIL() << "seed " << seed;
+  }
+  for (const auto& [name, count] : {std::pair("takeovers", takeovers), {"offsets", offsets}, {"swaps", swaps}})
+    std::cout << name << ": " << count.caught << " mutants caught, " << count.redundant << " redundant\n";
+  EXPECT_GT(takeovers.caught, 100u);
+  EXPECT_LT(takeovers.redundant * 20, takeovers.caught);
+  EXPECT_GT(offsets.caught, 100u);
+  EXPECT_GT(swaps.caught, 100u);
+}
+
+TEST(Verify, SeesAnOrderThatReadsBeforeItIsWritten) {
+  Plan plan = plan_of(file(R"("s": {"type": "source"}, "f": {"type": "filter", "in": {"x": "s.a"}})", R"("o": "f.a")"));
+  std::swap(plan.steps[0], plan.steps[1]);
+  const std::vector<std::string> violations = verify(plan).violations;
+  ASSERT_FALSE(violations.empty());
+  EXPECT_NE(join(violations, "\n").find("s.a: f finds what is undefined instead of what frame 0 wrote"),
+            std::string::npos)
+      << join(violations, "\n");
+}
+
+TEST(Verify, SeesMemoryThatWasNotTakenOver) {
+  Case one(plan_of(file(R"("s": {"type": "source"}, "f": {"type": "filter", "in": {"x": "s.a"}},
+      "g": {"type": "filter", "in": {"x": "f.a"}}, "h": {"type": "filter", "in": {"x": "g.a"}})",
+                        R"("o": "h.a")")));
+  ASSERT_TRUE(one.violations().empty());
+  for (PlanStep& step : one.plan.steps)
+    std::erase_if(step.barriers, [](const Barrier& barrier) { return barrier.takes_over; });
+  const std::vector<std::string> violations = one.violations();
+  ASSERT_FALSE(violations.empty());
+  EXPECT_NE(violations.front().find("was not taken over"), std::string::npos) << violations.front();
+}
+
+TEST(Verify, TheGraphsThatShipAreSound) {
+  for (const char* name : {"paper.json", "lightloom.json", "stages.json", "reference.json"}) {
+    for (const bool dynamic : {false, true}) {
+      LinkEnvironment scene = toy::environment(dynamic);
+      scene.scene_features = {{"dynamic", dynamic}, {"emissive", true}, {"specular", true}};
+      const Case one(compile(toy::graph_of(read_text_file(source_dir() / "graphs" / name), {}, real_passes(), scene)));
+      EXPECT_EQ(one.violations(), std::vector<std::string>{}) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lightloom
