@@ -39,7 +39,9 @@ FirstHit hit_of_surface(const TriangleGeometry& geometry, const PixelCamera& cam
   const size_t pixel = size_t{y} * images.width + x;
   const glm::vec4 position = images.position[pixel];
   FirstHit hit;
-  hit.ray = camera.through((x + 0.5), (y + 0.5));
+  // The G-buffer may be coarser than the image of the camera.
+  const glm::dvec2 scale = camera.pixels() / glm::dvec2(images.width, images.height);
+  hit.ray = camera.through((x + 0.5) * scale.x, (y + 0.5) * scale.y);
   if (!(position.w > 0)) return hit;
   const uint32_t triangle = images.id[pixel].z;
   if (triangle >= geometry.triangles().scene().triangles.size())

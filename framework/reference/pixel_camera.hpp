@@ -24,6 +24,7 @@ class PixelCamera {
   [[nodiscard]] ViewRay towards(const glm::vec3& position) const;
   /// The ray `dx` pixels to the right of another and `dy` below it.
   [[nodiscard]] ViewRay beside(const ViewRay& ray, double dx, double dy) const;
+  [[nodiscard]] const glm::dvec2& pixels() const { return pixels_; }  ///< in x and y
   /// Unit, towards the viewer.
   [[nodiscard]] glm::vec3 to_viewer(const glm::vec3& position) const;
 

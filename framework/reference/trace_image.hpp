@@ -54,7 +54,7 @@ struct ImageSettings {
   PathSettings path;
 };
 
-/// The first hit of path `path` of a pixel; `path` is 0 where all share one.
+/// The first hit of a path, whose random numbers may place it within the pixel.
 using FindFirstHit = std::function<FirstHit(uint32_t x, uint32_t y, const PathRandom& random)>;
 
 namespace detail {

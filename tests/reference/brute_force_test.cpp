@@ -9,8 +9,8 @@
 #include <random>
 #include <thread>
 
-#include "tests/reference/tracing.hpp"
 #include "tests/support/source_dir.hpp"
+#include "tests/support/tracing.hpp"
 
 namespace lightloom::test {
 namespace {

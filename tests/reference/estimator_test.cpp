@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "framework/base/error.hpp"
-#include "tests/reference/tracing.hpp"
+#include "tests/support/tracing.hpp"
 
 namespace lightloom::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/reference/tracing.hpp"
+#include "tests/support/tracing.hpp"
 
 namespace lightloom::test {
 namespace {

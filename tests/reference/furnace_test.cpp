@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/reference/tracing.hpp"
 #include "tests/shaders/ward_albedo_table.hpp"
+#include "tests/support/tracing.hpp"
 
 namespace lightloom::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "framework/reference/triangle_geometry.hpp"
-#include "tests/reference/tracing.hpp"
+#include "tests/support/tracing.hpp"
 
 namespace lightloom::test {
 namespace {

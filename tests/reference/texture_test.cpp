@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "framework/reference/textures.hpp"
-#include "tests/reference/tracing.hpp"
+#include "tests/support/tracing.hpp"
 
 namespace lightloom::test {
 namespace {

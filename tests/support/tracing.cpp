@@ -1,4 +1,4 @@
-#include "tests/reference/tracing.hpp"
+#include "tests/support/tracing.hpp"
 
 #include <gtest/gtest.h>
 
