@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "framework/base/file.hpp"
-#include "tests/graph/hazard_checker.hpp"
+#include "framework/graph/verify.hpp"
 #include "tests/graph/real_passes.hpp"
 #include "tests/graph/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
@@ -28,7 +28,7 @@ std::vector<std::string> culled(const Graph& graph) {
 
 TEST(ReferenceGraph, RunsWithoutHazard) {
   const Plan plan = compile(graph_of_file("reference.json", {}, true));
-  EXPECT_EQ(find_hazards(plan), std::vector<std::string>{});
+  EXPECT_EQ(verify(plan).violations, std::vector<std::string>{});
   EXPECT_TRUE(plan.graph.culled.empty());
 }
 
@@ -42,12 +42,12 @@ TEST(ReferenceGraph, TakesThePlaceOfAnyTracerAndCullsItsVoxels) {
     EXPECT_EQ(culled(paper), voxels);
     EXPECT_EQ(toy::pass(paper, "trace").params.choice("ward"), "1992");
     EXPECT_EQ(toy::source(paper, "trace", "surface", "id"), "trace_surface.surface.id");
-    EXPECT_EQ(find_hazards(compile(paper)), std::vector<std::string>{});
+    EXPECT_EQ(verify(compile(paper)).violations, std::vector<std::string>{});
     const Graph better = graph_of_file("lightloom.json", options, dynamic);
     const std::vector<std::string> gone = culled(better);
     EXPECT_TRUE(std::includes(gone.begin(), gone.end(), voxels.begin(), voxels.end()));
     EXPECT_EQ(toy::pass(better, "trace").params.choice("ward"), "bounded");
-    EXPECT_EQ(find_hazards(compile(better)), std::vector<std::string>{});
+    EXPECT_EQ(verify(compile(better)).violations, std::vector<std::string>{});
   }
 }
 
