@@ -34,7 +34,7 @@ ProgressBar::ProgressBar(std::ostream& stream, bool is_terminal, std::string tas
       clock_(std::move(clock)),
       begin_(clock_()),
       last_draw_(begin_) {
-  if (is_terminal_) draw(0, begin_);
+  if (is_terminal_) draw(0, std::nullopt, begin_);
 }
 
 ProgressBar::~ProgressBar() {
@@ -42,20 +42,31 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::update(uint64_t done) {
-  if (!is_terminal_) return;
   const auto now = clock_();
-  if (done < total_ && now - last_draw_ < kRedrawInterval) return;
-  draw(std::min(done, total_), now);
+  if (!due(done, now)) return;
+  std::optional<std::chrono::duration<double>> left;
+  if (done > 0) {
+    const double fraction = static_cast<double>(std::min(done, total_)) / static_cast<double>(total_);
+    left = std::chrono::duration<double>(now - begin_) * (1 / fraction - 1);
+  }
+  draw(std::min(done, total_), left, now);
 }
 
-void ProgressBar::draw(uint64_t done, std::chrono::steady_clock::time_point now) {
+void ProgressBar::update(uint64_t done, std::optional<std::chrono::duration<double>> left) {
+  const auto now = clock_();
+  if (due(done, now)) draw(std::min(done, total_), left, now);
+}
+
+bool ProgressBar::due(uint64_t done, std::chrono::steady_clock::time_point now) const {
+  return is_terminal_ && (done >= total_ || now - last_draw_ >= kRedrawInterval);
+}
+
+void ProgressBar::draw(uint64_t done, std::optional<std::chrono::duration<double>> left,
+                       std::chrono::steady_clock::time_point now) {
   const double fraction = static_cast<double>(done) / static_cast<double>(total_);
   stream_ << kWipe << task_ << "  " << done << '/' << total_ << ' ' << unit_ << "  " << bar_text(fraction, kBarCells)
           << "  " << std::lround(std::floor(fraction * 100)) << '%';
-  if (done > 0 && done < total_) {
-    const std::chrono::duration<double> elapsed = now - begin_;
-    stream_ << "  " << duration_text(elapsed * (1 / fraction - 1)) << " left";
-  }
+  if (left && done < total_) stream_ << "  " << duration_text(*left) << " left";
   stream_ << std::flush;
   last_draw_ = now;
   drawn_ = true;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 
 namespace lightloom {
@@ -24,9 +25,14 @@ class ProgressBar {
 
   /// `done` steps are finished. The line is redrawn at most ten times a second, and for the last step.
   void update(uint64_t done);
+  /// The same with what the caller knows of the time left, which is shown instead of an estimate from `done` alone;
+  /// where the caller knows nothing yet, none is shown.
+  void update(uint64_t done, std::optional<std::chrono::duration<double>> left);
 
  private:
-  void draw(uint64_t done, std::chrono::steady_clock::time_point now);
+  [[nodiscard]] bool due(uint64_t done, std::chrono::steady_clock::time_point now) const;
+  void draw(uint64_t done, std::optional<std::chrono::duration<double>> left,
+            std::chrono::steady_clock::time_point now);
 
   std::ostream& stream_;
   bool is_terminal_;

@@ -17,6 +17,7 @@ void add_passes_command(Command& program, const CommandContext& context);
 void add_scene_command(Command& program, const CommandContext& context);
 void add_brdf_command(Command& program, const CommandContext& context);
 void add_compare_command(Command& program, const CommandContext& context);
+void add_study_command(Command& program, const CommandContext& context);
 void add_devices_command(Command& program, const CommandContext& context);
 void add_completion_command(Command& program, const CommandContext& context);
 

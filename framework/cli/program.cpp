@@ -17,6 +17,7 @@ Examples:
   lightloom render graphs/paper.json --scene samples/scenes/atrium.scene.json --out out/atrium
   lightloom check graphs/paper.json
   lightloom passes voxel_path_trace
+  lightloom study --graph graphs/paper.json --scene samples/scenes/atrium.scene.json --ablate 'denoise_*,temporal'
   source <(lightloom completion bash))";
 
 ExitCode answer(const ParseResult& result, const CommandContext& context) {
@@ -55,6 +56,7 @@ ExitCode run_program(const std::vector<std::string>& arguments, const CommandCon
     add_scene_command(program, context);
     add_brdf_command(program, context);
     add_compare_command(program, context);
+    add_study_command(program, context);
     add_devices_command(program, context);
     add_completion_command(program, context);
     const ExitCode code = answer(program.parse(arguments), context);
