@@ -18,6 +18,7 @@ MetricValues values_of(const image::Metrics& metrics) {
           {"flip", metrics.flip},
           {"mean_error", metrics.mean_error},
           {"max_error", metrics.max_error},
+          {"bias", metrics.bias},
           {"fireflies", static_cast<double>(metrics.fireflies)},
           {"non_finite", static_cast<double>(metrics.non_finite)}};
 }

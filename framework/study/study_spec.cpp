@@ -73,9 +73,9 @@ std::string size_text(const Size& size) {
 }
 
 const std::vector<std::string>& metric_names() {
-  static const std::vector<std::string> names = {"flip",       "relmse",    "rmse",      "smape",
-                                                 "mape",       "mse",       "psnr",      "ssim",
-                                                 "mean_error", "max_error", "fireflies", "non_finite"};
+  static const std::vector<std::string> names = {"flip", "relmse",    "rmse",      "smape",      "mape",
+                                                 "mse",  "psnr",      "ssim",      "mean_error", "max_error",
+                                                 "bias", "fireflies", "non_finite"};
   return names;
 }
 
