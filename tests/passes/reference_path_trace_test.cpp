@@ -122,8 +122,8 @@ class ReferenceSeesWhatGatherSees : public DeviceTest, public testing::WithParam
 
 struct Comparison {
   uint32_t pixels = 0, other_surface = 0, compared = 0, other_material = 0;
-  double normal = 0, tangent = 0;  ///< largest differences
-  double color = 0;                ///< mean difference
+  double normal = 0;                               ///< largest difference
+  double mean_normal = 0, tangent = 0, color = 0;  ///< sums of differences; of the tangents' cosines
 };
 
 Comparison compare(const Images& images, const scene::Scene& scene, uint32_t width, uint32_t height, double time) {
@@ -155,8 +155,9 @@ Comparison compare(const Images& images, const scene::Scene& scene, uint32_t wid
       ++result.compared;
       const reference::Reflectance& r = surface.point.reflectance;
       const glm::dvec4 albedo = part("albedo", x, y), material = part("material", x, y);
-      result.normal =
-          std::max(result.normal, glm::length(glm::dvec3(surface.point.normal) - glm::dvec3(part("normal", x, y))));
+      const double bent = glm::length(glm::dvec3(surface.point.normal) - glm::dvec3(part("normal", x, y)));
+      result.normal = std::max(result.normal, bent);
+      result.mean_normal += bent;
       const double color = glm::length(glm::dvec3(r.base_color) - glm::dvec3(albedo));
       result.color += color;
       const glm::dvec4 own(r.alpha, r.f0, r.f90);
@@ -190,6 +191,7 @@ TEST_P(ReferenceSeesWhatGatherSees, Scene) {
   EXPECT_LE(found.other_surface, found.pixels / 100);
   EXPECT_LE(found.other_material, found.compared / 50);
   EXPECT_LT(found.color / found.compared, 3e-3);
+  EXPECT_LT(found.mean_normal / found.compared, 0.02);
   if (!scene.features.normal_mapped) {
     EXPECT_LT(found.normal, 5e-3);
   }
