@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "framework/base/error.hpp"
+#include "framework/base/file.hpp"
 #include "framework/reference/first_hits.hpp"
 #include "tests/passes/light_support.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -102,6 +103,32 @@ TEST_F(ReferencePathTrace, IsTheSameInEachRunAndOtherInEachFrame) {
   EXPECT_NE(once[0].at("light").texels, once[1].at("light").texels);
   options.seed = 1;
   EXPECT_NE(once[0].at("light").texels, run_graph(text, glossy_scene(), options)[0].at("light").texels);
+}
+
+TEST_F(ReferencePathTrace, TheGraphsErrorFallsWithTheRootOfItsFrames) {
+  GraphRunOptions options;
+  options.frames = 16;
+  options.link.view = {24, 18};
+  options.link.sets = {{"paths", "200"}};
+  const std::vector<Images> frames =
+      run_graph(read_text_file(source_dir() / "graphs/reference.json"), glossy_scene(), options);
+  const auto error = [&](size_t frame) { return mean_of(frames[frame].at("standard_error"), 1, 0, 0, 24, 18); };
+  EXPECT_GT(error(0), 0);
+  EXPECT_NEAR(error(0) / error(3), 2, 0.2);
+  EXPECT_NEAR(error(3) / error(15), 2, 0.1);
+  // The first frame is off by as much as it says, measured against the last.
+  double squares = 0;
+  uint32_t count = 0;
+  for (uint32_t y = 0; y < 18; ++y)
+    for (uint32_t x = 0; x < 24; ++x) {
+      const double own = frames[0].at("standard_error").at(x, y, 0, 1);
+      if (!(own > 0)) continue;
+      squares += std::pow(difference(frames[0].at("radiance"), frames[15].at("radiance"), x, y, 1) / own, 2);
+      ++count;
+    }
+  ASSERT_GT(count, 100U);
+  // 15/16 of the variance of the first frame separates the two.
+  EXPECT_NEAR(squares / count, 15.0 / 16, 0.4);
 }
 
 TEST_F(ReferencePathTrace, RefusesToMoveStartsThatAreGiven) {

@@ -163,5 +163,13 @@ TEST(ReferenceSeen, SidesUnlitAndBackground) {
   EXPECT_EQ(traced.at(0, 0).covered, 0);
 }
 
+TEST(ReferenceSeen, ASceneWithoutTrianglesIsItsSky) {
+  SceneBuilder builder;
+  builder.scene.environment.radiance = {1, 2, 3};
+  const Traced traced = trace(builder.finish(flat_view({0, 1, 0}, {0, -1, 0}, 2, {0, 0, -1})), {});
+  EXPECT_EQ(traced.at(0, 0).outgoing, glm::vec3(1, 2, 3));
+  EXPECT_EQ(traced.at(0, 0).standard_error, glm::vec3(0));
+}
+
 }  // namespace
 }  // namespace lightloom::test
