@@ -7,6 +7,7 @@
 #include "passes/emissive_faces.hpp"
 #include "passes/gather.hpp"
 #include "passes/modulate.hpp"
+#include "passes/ray_query_path_trace.hpp"
 #include "passes/reference_path_trace.hpp"
 #include "passes/resample_surface.hpp"
 #include "passes/temporal_accumulate.hpp"
@@ -29,6 +30,7 @@ void register_builtin_passes(PassRegistry& registry) {
   registry.add(make_resample_surface());
   registry.add(make_voxel_path_trace());
   registry.add(make_reference_path_trace());
+  registry.add(make_ray_query_path_trace());
   registry.add(make_temporal_accumulate());
   registry.add(make_accumulate());
   registry.add(make_denoise_radial());

@@ -8,31 +8,18 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/features.glsl"
+#include "lib/first_hit.glsl"
 #include "lib/lights.glsl"
-#include "lib/modulation.glsl"
 #include "lib/ray_start.glsl"
+#include "lib/traced_light.glsl"
 #include "lib/voxel_encoding.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform texture2D surface_position;
-uniform texture2D surface_normal;
-uniform texture2D surface_geometric_normal;
-uniform texture2D surface_tangent;
-uniform texture2D surface_albedo;
-uniform texture2D surface_material;
-uniform texture2D surface_emission;
 uniform texture3D voxels_albedo;
 uniform texture3D voxels_normal;
 uniform texture3D voxels_material;
 uniform texture3D distance;
-uniform writeonly image2D out_radiance;
-uniform writeonly image2D out_diffuse;
-uniform writeonly image2D out_specular;
-
-layout(constant_id = 0) const bool radiance_wanted = true;
-layout(constant_id = 1) const bool diffuse_wanted = true;
-layout(constant_id = 2) const bool specular_wanted = true;
 
 layout(push_constant) uniform Params {
   uint paths;
@@ -47,18 +34,9 @@ const float kVoxelMinimumAlpha = 0.03;
 const bool kRaysFindLight = has_emissive || has_environment || has_sun;
 
 PathVertex surface_vertex(Grid grid, ivec2 pixel) {
-  PathVertex vertex;
-  vec3 position = texelFetch(surface_position, pixel, 0).xyz;
-  vec4 albedo = texelFetch(surface_albedo, pixel, 0);
-  vec4 material = texelFetch(surface_material, pixel, 0);
-  vec3 to_viewer = normalize(frame.eye[0].xyz - position * frame.eye[0].w);
-  vertex.position = position;
-  vertex.geometric_normal = normalize(texelFetch(surface_geometric_normal, pixel, 0).xyz);
-  vec3 normal = facing_normal(normalize(texelFetch(surface_normal, pixel, 0).xyz), to_viewer);
-  vertex.basis = make_frame(normal, texelFetch(surface_tangent, pixel, 0).xyz);
-  vertex.incoming = to_local(vertex.basis, to_viewer);
-  vertex.origin = world_to_grid(grid, position) + vertex.geometric_normal * start_offset(vertex.geometric_normal);
-  vertex.bsdf = Bsdf(albedo.rgb, albedo.w, material.z, material.w, material.xy);
+  PathVertex vertex = first_hit(pixel);
+  vec3 normal = vertex.geometric_normal;
+  vertex.origin = world_to_grid(grid, vertex.position) + normal * start_offset(normal);
   return vertex;
 }
 
@@ -131,30 +109,17 @@ PerLobe trace_path(Grid grid, PathVertex first, RandomKey key) {
   return light;
 }
 
-// Nothing that is not a number may reach the filters, which would spread it; infinities end at half's largest.
-vec3 bounded(vec3 light) { return is_finite(light) ? min(light, vec3(65504.0)) : vec3(0.0); }
-
 void main() {
   ivec2 size = textureSize(surface_position, 0);
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, size))) return;
-  bool lit = texelFetch(surface_position, pixel, 0).w > 0.0 && texelFetch(surface_emission, pixel, 0).w < 0.5;
-  vec3 radiance = vec3(0.0);
-  PerLobe lobes = kNoLight;
+  bool lit = is_lit(pixel);
+  TracedLight sum = kNothingTraced;
   if (lit) {
     Grid grid = scene_grid(textureSize(distance, 0));
     PathVertex first = surface_vertex(grid, pixel);
-    float cosine = first.incoming.z;
     RandomKey key = RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u);
-    for (key.path = 0u; key.path < paths; ++key.path) {
-      PerLobe light = trace_path(grid, first, key);
-      radiance += bounded((light.diffuse + light.specular) / modulation_color(first.bsdf, cosine));
-      lobes.diffuse += bounded(light.diffuse / diffuse_modulation(first.bsdf, cosine));
-      lobes.specular += bounded(light.specular / specular_modulation(first.bsdf, cosine));
-    }
+    for (key.path = 0u; key.path < paths; ++key.path) add_path(sum, first, trace_path(grid, first, key));
   }
-  float coverage = lit ? 1.0 : 0.0;
-  if (radiance_wanted) imageStore(out_radiance, pixel, vec4(radiance / float(paths), coverage));
-  if (diffuse_wanted) imageStore(out_diffuse, pixel, vec4(lobes.diffuse / float(paths), coverage));
-  if (specular_wanted) imageStore(out_specular, pixel, vec4(lobes.specular / float(paths), coverage));
+  store_light(pixel, sum, paths, lit);
 }

@@ -17,17 +17,19 @@ void print_json(const std::vector<gpu::DeviceSummary>& devices, std::ostream& ou
     nlohmann::ordered_json entry = run::device_record(device.info);
     entry["usable"] = device.usable;
     entry["missing"] = device.missing;
+    entry["ray_queries_missing"] = device.info.ray_query.missing;
     list.push_back(entry);
   }
   out << nlohmann::ordered_json{{"devices", list}}.dump(2) << '\n';
 }
 
 void print_table(const std::vector<gpu::DeviceSummary>& devices, std::ostream& out) {
-  std::vector<std::vector<std::string>> rows = {{"INDEX", "NAME", "TYPE", "VULKAN", "DRIVER", "USABLE"}};
+  std::vector<std::vector<std::string>> rows = {{"INDEX", "NAME", "TYPE", "VULKAN", "DRIVER", "USABLE", "RAY QUERIES"}};
   for (size_t i = 0; i < devices.size(); ++i) {
     const gpu::DeviceInfo& info = devices[i].info;
     rows.push_back({std::to_string(i), info.name, gpu::to_string(info.type), info.api_version_text(),
-                    info.driver + " " + info.driver_info, devices[i].usable ? "yes" : "no: " + devices[i].missing});
+                    info.driver + " " + info.driver_info, devices[i].usable ? "yes" : "no: " + devices[i].missing,
+                    info.ray_query.available ? "yes" : "no: " + info.ray_query.missing});
   }
   out << align_columns(rows);
 }
@@ -49,7 +51,8 @@ ExitCode list(bool json, const CommandContext& context) {
 
 void add_devices_command(Command& program, const CommandContext& context) {
   Command& command = program.command("devices", "List the Vulkan devices, and whether each is usable");
-  command.description("Exits with 4 if none is usable.");
+  command.description(
+      "Exits with 4 if none is usable. Ray queries are what 'ray_query_path_trace' needs; all else runs without.");
   auto json = std::make_shared<bool>(false);
   command.flag("--json", *json, "Print JSON");
   command.action([json, &context] { return list(*json, context); });

@@ -18,7 +18,9 @@ void check_limits(const Device& device, VkDeviceSize size, VkBufferUsageFlags us
                     " buffer on device '" + device.info().name + "'",
                 "the scene or the graph is too large for this device");
   };
-  require(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, limits.maxStorageBufferRange, "storage");
+  // What is reached by its address is not bound as a range.
+  if ((usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) == 0)
+    require(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, limits.maxStorageBufferRange, "storage");
   require(VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, limits.maxUniformBufferRange, "uniform");
 }
 
@@ -42,12 +44,23 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
   VkMemoryDedicatedAllocateInfo dedicated{};
   dedicated.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO;
   dedicated.buffer = buffer;
+  VkMemoryAllocateFlagsInfo flags{};
+  flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+  if ((usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0) dedicated.pNext = &flags;
   memory_ = allocate_memory(device, requirements, kind, owner, dedicated);
   check(vkBindBufferMemory(device.get(), buffer, memory_.get(), 0), "vkBindBufferMemory for " + owner);
   if (kind == MemoryKind::device) return;
   void* data = nullptr;
   check(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &data), "vkMapMemory for " + owner);
   mapped_ = {static_cast<std::byte*>(data), size};
+}
+
+VkDeviceAddress Buffer::address(const Device& device) const {
+  VkBufferDeviceAddressInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+  info.buffer = get();
+  return vkGetBufferDeviceAddress(device.get(), &info);
 }
 
 }  // namespace lightloom::gpu

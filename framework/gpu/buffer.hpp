@@ -8,7 +8,8 @@
 
 namespace lightloom::gpu {
 
-/// A buffer with its own memory. TRANSFER_SRC and TRANSFER_DST are always among its usages.
+/// A buffer with its own memory. TRANSFER_SRC and TRANSFER_DST are always among its usages. SHADER_DEVICE_ADDRESS needs
+/// a device with ray queries.
 class Buffer {
  public:
   /// @param size [bytes], at least 1
@@ -17,6 +18,8 @@ class Buffer {
   [[nodiscard]] VkBuffer get() const { return buffer_.get(); }
   [[nodiscard]] VkDeviceSize size() const { return size_; }
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Where it lies for the device; only with usage SHADER_DEVICE_ADDRESS.
+  [[nodiscard]] VkDeviceAddress address(const Device& device) const;
   /// All of it, for MemoryKind upload and readback; empty for `device`.
   [[nodiscard]] std::span<std::byte> mapped() const { return mapped_; }
 

@@ -18,6 +18,8 @@ constexpr VkDescriptorType descriptor_type(BindingKind kind) {
       return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     case BindingKind::storage_image:
       return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    case BindingKind::acceleration_structure:
+      return VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
     case BindingKind::sampler:
       break;
   }

@@ -71,6 +71,8 @@ class SetWriter {
       write.pImageInfo = image_infos(binding, std::span(image, 1));
     } else if (const auto* images = std::get_if<std::vector<ImageResource>>(&resource)) {
       write.pImageInfo = image_infos(binding, *images);
+    } else if (const auto* acceleration = std::get_if<AccelerationResource>(&resource)) {
+      write.pNext = acceleration_info(binding, *acceleration);
     } else {
       write.pImageInfo = sampler_info(binding, std::get<SamplerResource>(resource));
     }
@@ -128,6 +130,17 @@ class SetWriter {
     return infos.data();
   }
 
+  const VkWriteDescriptorSetAccelerationStructureKHR* acceleration_info(const Binding& binding,
+                                                                        const AccelerationResource& acceleration) {
+    if (binding.kind != BindingKind::acceleration_structure || binding.count != 1)
+      fail(reflection_, binding, "is given an acceleration structure");
+    VkWriteDescriptorSetAccelerationStructureKHR& info = accelerations_.emplace_back();
+    info.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR;
+    info.accelerationStructureCount = 1;
+    info.pAccelerationStructures = &acceleration.structure;
+    return &info;
+  }
+
   const VkDescriptorImageInfo* sampler_info(const Binding& binding, const SamplerResource& sampler) {
     if (binding.kind != BindingKind::sampler || binding.count != 1) fail(reflection_, binding, "is given a sampler");
     return images_.emplace_back(1, VkDescriptorImageInfo{sampler.sampler, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED})
@@ -140,6 +153,7 @@ class SetWriter {
   // The writes point into these; a deque does not move what it holds.
   std::deque<VkDescriptorBufferInfo> buffers_;
   std::deque<std::vector<VkDescriptorImageInfo>> images_;
+  std::deque<VkWriteDescriptorSetAccelerationStructureKHR> accelerations_;
 };
 
 }  // namespace
@@ -202,10 +216,12 @@ VkDescriptorSet DescriptorAllocator::allocate_set(const Pipeline& pipeline) {
 DescriptorAllocator::Pool DescriptorAllocator::make_pool(const Counts& at_least) const {
   Pool pool;
   pool.free_sets = kSetsPerPool;
-  std::array<VkDescriptorPoolSize, kKinds> sizes{};
+  std::vector<VkDescriptorPoolSize> sizes;
   for (size_t i = 0; i < kKinds; ++i) {
+    // A device without ray queries does not know this type.
+    if (static_cast<BindingKind>(i) == BindingKind::acceleration_structure && at_least[i] == 0) continue;
     pool.free[i] = std::max(at_least[i], kDescriptorsPerKind);
-    sizes[i] = {descriptor_type(static_cast<BindingKind>(i)), pool.free[i]};
+    sizes.push_back({descriptor_type(static_cast<BindingKind>(i)), pool.free[i]});
   }
   VkDescriptorPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;

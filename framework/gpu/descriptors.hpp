@@ -29,8 +29,14 @@ struct SamplerResource {
   VkSampler sampler = VK_NULL_HANDLE;
 };
 
+/// The scene of ray queries.
+struct AccelerationResource {
+  VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
+};
+
 /// What a name of a shader is bound to. A list of images is for an array of textures and has its length.
-using Resource = std::variant<BufferResource, ImageResource, std::vector<ImageResource>, SamplerResource>;
+using Resource =
+    std::variant<BufferResource, ImageResource, std::vector<ImageResource>, SamplerResource, AccelerationResource>;
 using ResourceMap = std::map<std::string, Resource, std::less<>>;
 
 [[nodiscard]] Resource resource(const Buffer& buffer);
@@ -54,7 +60,7 @@ class DescriptorAllocator {
   void reset();
 
  private:
-  static constexpr size_t kKinds = 6;  ///< of BindingKind
+  static constexpr size_t kKinds = 7;  ///< of BindingKind
   using Counts = std::array<uint32_t, kKinds>;
   struct Pool {
     DescriptorPoolHandle handle;

@@ -74,8 +74,8 @@ void Device::create_device(bool validate) {
   queue_family_ = static_cast<uint32_t>(find_queue_family(physical_, family));
   timestamp_bits_ = family.timestampValidBits;
 
-  FeatureChain features;
-  enable_required_features(features);
+  FeatureChain features(info_.ray_query.available);
+  enable_features(features);
   if (validate) {
     VkPhysicalDeviceFeatures available{};
     vkGetPhysicalDeviceFeatures(physical_, &available);
@@ -90,6 +90,8 @@ void Device::create_device(bool validate) {
   std::vector<const char*> extensions;
   constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
   if (has_device_extension(physical_, kPortabilitySubset)) extensions.push_back(kPortabilitySubset);
+  if (info_.ray_query.available)
+    for (const char* extension : ray_query_extensions()) extensions.push_back(extension);
 
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;

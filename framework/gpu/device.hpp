@@ -24,6 +24,14 @@ struct DeviceOptions {
 enum class DeviceType : uint8_t { discrete_gpu, integrated_gpu, virtual_gpu, cpu, other };
 [[nodiscard]] std::string to_string(DeviceType type);  ///< "discrete GPU"
 
+/// Whether shaders of a device can ask what a ray meets, and by which limits.
+struct RayQuerySupport {
+  bool available = false;          ///< VK_KHR_acceleration_structure and VK_KHR_ray_query with what these need
+  std::string missing;             ///< what is not there, in words; empty if available
+  uint32_t scratch_alignment = 1;  ///< of the memory in which structures are built [bytes]
+  uint64_t most_primitives = 0;    ///< triangles of one bottom-level structure
+};
+
 /// What is known of a device without opening it.
 struct DeviceInfo {
   std::string name;
@@ -35,8 +43,9 @@ struct DeviceInfo {
   uint32_t device_id = 0;
   std::array<uint8_t, VK_UUID_SIZE> uuid{};
   VkPhysicalDeviceLimits limits{};
-  uint64_t max_allocation_bytes = 0;                   ///< of one allocation
-  bool has_memory_budget = false;                      ///< VK_EXT_memory_budget
+  uint64_t max_allocation_bytes = 0;  ///< of one allocation
+  bool has_memory_budget = false;     ///< VK_EXT_memory_budget
+  RayQuerySupport ray_query;
   [[nodiscard]] std::string api_version_text() const;  ///< "1.3.230"
   [[nodiscard]] std::string uuid_text() const;         ///< hexadecimal, 32 digits
 };
@@ -50,7 +59,8 @@ struct DeviceSummary {
 /// Every device of this machine, in the loader's order; empty if there is no driver.
 [[nodiscard]] std::vector<DeviceSummary> list_devices();
 
-/// A Vulkan 1.3 device with one queue that does graphics, compute and transfer.
+/// A Vulkan 1.3 device with one queue that does graphics, compute and transfer; ray queries are switched on where it
+/// has them.
 class Device {
  public:
   /// Throws Error(no_device) that names what is missing, or lists the devices there if `options.name` fits none.

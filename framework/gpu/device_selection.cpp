@@ -76,6 +76,7 @@ DeviceInfo read_info(VkPhysicalDevice device) {
   info.max_allocation_bytes = identity.maxMemoryAllocationSize;
   std::copy(std::begin(identity.deviceUUID), std::end(identity.deviceUUID), info.uuid.begin());
   info.has_memory_budget = has_device_extension(device, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+  info.ray_query = read_ray_query_support(device);
   return info;
 }
 
@@ -85,7 +86,7 @@ std::string find_missing(VkPhysicalDevice device, const DeviceInfo& info) {
   }
   VkQueueFamilyProperties family{};
   if (find_queue_family(device, family) < 0) return "a queue for graphics and compute";
-  FeatureChain chain;
+  FeatureChain chain(false);
   vkGetPhysicalDeviceFeatures2(device, &chain.core);
   std::string missing;
   const auto note = [&](bool there, const char* name) {
@@ -133,15 +134,25 @@ size_t choose_named(std::span<const DeviceSummary> devices, const std::string& w
 
 }  // namespace
 
-FeatureChain::FeatureChain() {
+FeatureChain::FeatureChain(bool ray_queries) {
   vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
   core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   core.pNext = &vulkan13;
+  buffer_address.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
+  acceleration_structure.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR;
+  ray_query.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR;
+  if (!ray_queries) return;
+  vulkan13.pNext = &buffer_address;
+  buffer_address.pNext = &acceleration_structure;
+  acceleration_structure.pNext = &ray_query;
 }
 
-void enable_required_features(FeatureChain& chain) {
+void enable_features(FeatureChain& chain) {
   for (const CoreFeature& feature : kCoreFeatures) chain.core.features.*feature.member = VK_TRUE;
   for (const Feature13& feature : kFeatures13) chain.vulkan13.*feature.member = VK_TRUE;
+  chain.buffer_address.bufferDeviceAddress = VK_TRUE;
+  chain.acceleration_structure.accelerationStructure = VK_TRUE;
+  chain.ray_query.rayQuery = VK_TRUE;
 }
 
 int find_queue_family(VkPhysicalDevice device, VkQueueFamilyProperties& properties) {

@@ -23,12 +23,20 @@ namespace lightloom::gpu {
 struct FeatureChain {
   VkPhysicalDeviceFeatures2 core{};
   VkPhysicalDeviceVulkan13Features vulkan13{};
-  FeatureChain();
+  VkPhysicalDeviceBufferDeviceAddressFeatures buffer_address{};
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration_structure{};
+  VkPhysicalDeviceRayQueryFeaturesKHR ray_query{};
+  /// `ray_queries`: with the three last ones, which a device without their extensions does not know.
+  explicit FeatureChain(bool ray_queries);
   FeatureChain(const FeatureChain&) = delete;
   FeatureChain& operator=(const FeatureChain&) = delete;
 };
 
-/// Sets each required feature of `chain`.
-void enable_required_features(FeatureChain& chain);
+/// Sets each feature of `chain` that is required, or that ray queries need.
+void enable_features(FeatureChain& chain);
+
+/// The extensions that ray queries need.
+[[nodiscard]] std::span<const char* const> ray_query_extensions();
+[[nodiscard]] RayQuerySupport read_ray_query_support(VkPhysicalDevice device);
 
 }  // namespace lightloom::gpu

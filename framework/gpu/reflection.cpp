@@ -15,16 +15,16 @@ struct ResourceRow {
   spvc_resource_type type;
   BindingKind kind;
 };
-constexpr std::array<ResourceRow, 6> kBound{{
+constexpr std::array<ResourceRow, 7> kBound{{
     {SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, BindingKind::uniform_buffer},
     {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, BindingKind::storage_buffer},
     {SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, BindingKind::sampled_image},
     {SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, BindingKind::combined_sampler},
     {SPVC_RESOURCE_TYPE_STORAGE_IMAGE, BindingKind::storage_image},
     {SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS, BindingKind::sampler},
+    {SPVC_RESOURCE_TYPE_ACCELERATION_STRUCTURE, BindingKind::acceleration_structure},
 }};
-constexpr std::array kUnsupported{SPVC_RESOURCE_TYPE_SUBPASS_INPUT, SPVC_RESOURCE_TYPE_ATOMIC_COUNTER,
-                                  SPVC_RESOURCE_TYPE_ACCELERATION_STRUCTURE};
+constexpr std::array kUnsupported{SPVC_RESOURCE_TYPE_SUBPASS_INPUT, SPVC_RESOURCE_TYPE_ATOMIC_COUNTER};
 
 [[noreturn]] void fail(const Reflection& reflection, const std::string& sentence, const std::string& hint = {}) {
   throw Error(ExitCode::invalid_input, "shader " + reflection.name + ": " + sentence, hint);
@@ -98,7 +98,8 @@ Binding read_binding(const SpirvReader& reader, const spvc_reflected_resource& r
   }
   const bool buffer = kind == BindingKind::uniform_buffer || kind == BindingKind::storage_buffer;
   if (buffer) read_block(reader, resource, binding);
-  if (!buffer && kind != BindingKind::sampler) read_image(reader, resource, binding);
+  const bool image = !buffer && kind != BindingKind::sampler && kind != BindingKind::acceleration_structure;
+  if (image) read_image(reader, resource, binding);
   return binding;
 }
 
@@ -239,6 +240,8 @@ std::string_view to_string(BindingKind kind) {
       return "image with sampler";
     case BindingKind::storage_image:
       return "storage image";
+    case BindingKind::acceleration_structure:
+      return "acceleration structure";
     case BindingKind::sampler:
       break;
   }

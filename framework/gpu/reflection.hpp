@@ -21,6 +21,7 @@ enum class BindingKind : uint8_t {
   combined_sampler,  ///< sampler2D, …
   storage_image,
   sampler,
+  acceleration_structure,
 };
 [[nodiscard]] std::string_view to_string(BindingKind kind);  ///< "storage image"
 

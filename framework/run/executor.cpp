@@ -5,9 +5,15 @@
 
 #include "framework/gpu/transfer.hpp"
 #include "framework/run/barriers.hpp"
+#include "framework/run/device_needs.hpp"
 
 namespace lightloom::run {
 namespace {
+
+Plan checked(Plan plan, const gpu::Device& device) {
+  require_device_needs(plan.graph, device.info());
+  return plan;
+}
 
 uint32_t query_count(size_t steps) {
   return static_cast<uint32_t>(steps) * 2;
@@ -17,7 +23,7 @@ uint32_t query_count(size_t steps) {
 
 Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, const ExecutorOptions& options)
     : device_(device),
-      plan_(std::move(plan)),
+      plan_(checked(std::move(plan), device)),
       images_(device, plan_, options.share_memory),
       readback_(device, plan_),
       host_passes_(device, plan_),
@@ -27,7 +33,8 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
               .view = plan_.graph.view,
               .seed = options.seed,
               .frames_per_second = options.frames_per_second,
-              .general = plan_.graph.general}),
+              .general = plan_.graph.general,
+              .ray_queries = needs_ray_queries(plan_.graph)}),
       memo_(options.memo ? options.memo : std::make_shared<SceneMemo>()),
       placeholders_(device),
       shaders_(device, {.include_directories = options.shaders.sources, .cache_directory = options.shaders.cache}),

@@ -37,8 +37,8 @@ struct ExecutorOptions {
 /// Turns a plan into Vulkan objects and runs frames. Owns the images and history rings; passes own nothing.
 class Executor {
  public:
-  /// `device` and `scene` outlive the executor. Throws Error for a camera that the scene lacks, for values beyond the
-  /// device's limits, and for shaders that do not compile.
+  /// `device` and `scene` outlive the executor. Throws Error for what a pass needs and the device lacks, for a camera
+  /// that the scene lacks, for values beyond the device's limits, and for shaders that do not compile.
   Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, const ExecutorOptions& options);
 
   /// Runs frame number `frame` after the frames run so far, which are its history, and waits for it.

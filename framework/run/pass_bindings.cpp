@@ -32,6 +32,8 @@ constexpr FrameState kGeometry = FrameState::static_geometry | FrameState::dynam
 constexpr std::array kBindings = {
     DeclaredRead{"VertexBlock", kGeometry},
     DeclaredRead{"TriangleBlock", kGeometry},
+    DeclaredRead{"PrimitiveBlock", kGeometry},
+    DeclaredRead{"scene_tlas", kGeometry},
     DeclaredRead{"PastPositionBlock", FrameState::dynamic_geometry},
     DeclaredRead{"MaterialBlock", FrameState::materials},
     DeclaredRead{"texture_pages", FrameState::materials},

@@ -81,6 +81,7 @@ Json device_record(const gpu::DeviceInfo& info) {
           {"driver", info.driver},
           {"driver_info", info.driver_info},
           {"api_version", info.api_version_text()},
+          {"ray_queries", info.ray_query.available},
           {"uuid", info.uuid_text()}};
 }
 

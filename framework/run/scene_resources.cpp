@@ -37,13 +37,13 @@ VkDeviceSize dynamic_position_bytes(const scene::Scene& scene) {
   return (scene.vertices.size() - scene.static_vertex_count) * sizeof(glm::vec4);
 }
 
-gpu::Buffer storage_buffer(gpu::Device& device, VkDeviceSize size, const char* name) {
+gpu::Buffer storage_buffer(gpu::Device& device, VkDeviceSize size, const char* name, VkBufferUsageFlags usage = 0) {
   const VkDeviceSize limit = device.info().limits.maxStorageBufferRange;
   if (size > limit)
     throw Error(ExitCode::invalid_input, std::string("the scene's ") + name + " take " + gpu::bytes_text(size) +
                                              ", more than the " + gpu::bytes_text(limit) +
                                              " that a buffer of this device may have");
-  return {device, at_least_one(size), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryKind::device, name};
+  return {device, at_least_one(size), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | usage, gpu::MemoryKind::device, name};
 }
 
 gpu::Buffer uniform_buffer(gpu::Device& device, VkDeviceSize size, const char* name) {
@@ -142,7 +142,8 @@ SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene, S
       emission_(scene::build_emission_table(scene)),
       emitters_(scene, emission_),
       samplers_(device),
-      vertices_(storage_buffer(device, scene.vertices.size() * sizeof(scene::Vertex), "vertices")),
+      vertices_(storage_buffer(device, scene.vertices.size() * sizeof(scene::Vertex), "vertices",
+                               options_.ray_queries ? gpu::kBuildInputUsage : 0)),
       triangles_(storage_buffer(device, scene.triangles.size() * sizeof(scene::Triangle), "triangles")),
       past_positions_(storage_buffer(device, kHistoryLimit * dynamic_position_bytes(scene), "past positions")),
       frame_block_(uniform_buffer(device, sizeof(FrameBlock), "frame block")),
@@ -153,6 +154,7 @@ SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene, S
   upload_geometry(device);
   upload_materials(device);
   upload_environment(device);
+  if (options_.ray_queries) accelerator_.emplace(device, scene_, vertices_);
   bind();
 }
 
@@ -202,6 +204,10 @@ void SceneResources::bind() {
   resources.emplace("PastPositionBlock", gpu::resource(past_positions_));
   resources.emplace("MaterialBlock", gpu::resource(materials_.front()));
   resources.emplace("texture_pages", pages);
+  if (accelerator_) {
+    resources.emplace("scene_tlas", gpu::AccelerationResource{accelerator_->top_level()});
+    resources.emplace("PrimitiveBlock", gpu::resource(accelerator_->primitives()));
+  }
   resources.emplace("environment_map", gpu::resource(environment_.front(), samplers_.equirectangular()));
   resources.emplace("environment_table", gpu::resource(environment_.back(), samplers_.clamp_linear()));
   for (const auto& [name, present] : scene_.features.named())
@@ -230,7 +236,7 @@ uint32_t SceneResources::fill_light_block(LightBlock& block, const scene::Pose& 
   const std::vector<scene::Hint> hints = emitters_.draw_hints(scene_, options_.seed, frame, kHintLimit);
   for (size_t index = 0; index < hints.size(); ++index)
     block.hints[index] = {.position = glm::vec4(hints[index].position, hints[index].entry),
-                          .normal = glm::vec4(hints[index].normal, 0)};
+                          .normal = glm::vec4(hints[index].normal, hints[index].triangle)};
   const std::vector<PunctualEntry> punctual = make_punctual_entries(pose.punctual);
   std::copy(punctual.begin(), punctual.end(), std::begin(block.punctual));
   return static_cast<uint32_t>(hints.size());
@@ -298,6 +304,7 @@ void SceneResources::record_upload(VkCommandBuffer commands) const {
   copy(kVertexOffset, vertices_, VkDeviceSize{scene_.static_vertex_count} * sizeof(scene::Vertex), moving);
   const VkDeviceSize slot = dynamic_position_bytes(scene_);
   copy(kVertexOffset + moving, past_positions_, newest_slot_ * slot, slot);
+  if (accelerator_) accelerator_->record_rebuild(commands);
 }
 
 }  // namespace lightloom::run

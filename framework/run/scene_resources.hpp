@@ -10,6 +10,7 @@
 #include "framework/run/frame_result.hpp"
 #include "framework/run/frame_state.hpp"
 #include "framework/run/moved_boxes.hpp"
+#include "framework/run/scene_accelerator.hpp"
 #include "framework/run/scene_bindings.hpp"
 #include "framework/scene/camera_path.hpp"
 #include "framework/scene/frame_scene.hpp"
@@ -28,6 +29,7 @@ struct SceneResourceOptions {
   uint32_t seed = 0;
   double frames_per_second = 30;
   bool general = false;  ///< shaders see every feature, whatever the scene has
+  bool ray_queries = false;  ///< some pass asks what rays meet: builds acceleration structures
 };
 
 /// The scene on the device: uploaded once, but for what moves and the blocks of the frame, which are staged by
@@ -78,6 +80,7 @@ class SceneResources {
   std::vector<gpu::Image> texture_pages_;  ///< as many as shaders declare; white beyond those in use
   uint32_t used_page_count_ = 0;
   std::vector<gpu::Image> environment_;  ///< the image, and the table by which its light is sampled
+  std::optional<SceneAccelerator> accelerator_;
   SceneBindings bindings_;
 };
 

@@ -182,6 +182,7 @@ Hint EmitterSampler::sample(const Scene& scene, const Emitter& emitter, uint32_t
   hint.position = emitter.a * (1 - point.x - point.y) + emitter.b * point.x + emitter.c * point.y;
   hint.normal = glm::vec3(glm::normalize(double_area(emitter.a, emitter.b, emitter.c)));
   hint.entry = emitter.entry;
+  hint.triangle = emitter.triangle;
   return hint;
 }
 

@@ -33,6 +33,7 @@ struct Hint {
   glm::vec3 position{0};  ///< [m]
   glm::vec3 normal{0};    ///< unit, geometric, on the front side
   uint32_t entry = 0;     ///< of the emission table
+  uint32_t triangle = 0;  ///< that it lies on
 };
 
 /// Draws points on the emissive triangles for next-event estimation.

@@ -8,7 +8,9 @@
 #define LIGHTLOOM_LIB_EMITTERS
 
 #include "lib/emissive_faces.glsl"
+#include "lib/grid.glsl"
 #include "lib/hints.glsl"
+#include "lib/light_visibility.glsl"
 #include "lib/random.glsl"
 
 const uint kNeeHints = 0u;
@@ -99,6 +101,17 @@ float face_hit_pdf(texture3D albedo, MarchHit hit, VoxelSurface surface, vec3 or
   if (!face_listed(head.x, face_code(hit.voxel, face))) return 0.0;
   float probability = float(face_weight(surface.emission, surface.normal, face)) / float(head.y);
   return face_solid_angle_pdf(probability, entry_distance(hit, origin, direction), -dot(vec3(hit.face), direction));
+}
+
+// Light of one hint, picked uniformly by `u`.
+PerLobe hint_light(Grid grid, texture3D distance_field, texture3D materials, PathVertex vertex, float u) {
+  Hint hint;
+  if (!pick_hint(u, hint)) return kNoLight;
+  uint emission = uint(hint.position.w);
+  PerLobe light = hint_sample(vertex, hint, lights.emissions[emission].radiance.rgb, 1e-4 * grid.voxel_size).light;
+  vec3 target = world_to_grid(grid, hint.position.xyz);
+  if (is_black(light) || !light_visible(distance_field, materials, vertex.origin, target, emission)) return kNoLight;
+  return light;
 }
 
 // One sample of the emissive surfaces, reflected by each lobe.

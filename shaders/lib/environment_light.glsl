@@ -1,9 +1,9 @@
-// Light from outside the scene: next event estimation and scattered rays find it together.
+// Light from outside the scene: next event estimation and scattered rays find it together. Who calls looks for what is in
+// the way.
 #ifndef LIGHTLOOM_LIB_ENVIRONMENT_LIGHT
 #define LIGHTLOOM_LIB_ENVIRONMENT_LIGHT
 
 #include "lib/environment.glsl"
-#include "lib/march.glsl"
 #include "lib/mis.glsl"
 #include "lib/path_vertex.glsl"
 
@@ -18,14 +18,14 @@ bool environment_sampled() {
          (strategy == kStrategyNee || environment_is_image());
 }
 
-PerLobe environment_light(texture3D distance_field, PathVertex vertex, vec4 u) {
+LightSample environment_sample(PathVertex vertex, vec4 u) {
   vec3 direction;
   float pdf;
-  if (!environment_sampled() || !sample_environment(u, direction, pdf)) return kNoLight;
+  if (!environment_sampled() || !sample_environment(u, direction, pdf)) return kNoLightSample;
   PerLobe reflected = reflectance_towards(vertex, direction);
-  if (is_black(reflected) || march_ray(distance_field, vertex.origin, direction, kFarAway).hit) return kNoLight;
+  if (is_black(reflected)) return kNoLightSample;
   float weight = light_sample_weight(pdf, scatter_pdf(vertex, direction));
-  return scaled(reflected, environment_radiance(direction) * weight);
+  return LightSample(direction, scaled(reflected, environment_radiance(direction) * weight));
 }
 
 // What a scattered ray that leaves the scene adds.

@@ -1,4 +1,4 @@
-// Shadow rays towards points.
+// Shadow rays through voxels towards points.
 #ifndef LIGHTLOOM_LIB_LIGHT_VISIBILITY
 #define LIGHTLOOM_LIB_LIGHT_VISIBILITY
 

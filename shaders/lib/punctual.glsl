@@ -1,9 +1,9 @@
 // Point, spot and directional lights of KHR_lights_punctual. They have no extent: only next event estimation finds them.
+// Who calls looks for what is in the way.
 #ifndef LIGHTLOOM_LIB_PUNCTUAL
 #define LIGHTLOOM_LIB_PUNCTUAL
 
-#include "lib/grid.glsl"
-#include "lib/light_visibility.glsl"
+#include "lib/features.glsl"
 #include "lib/path_vertex.glsl"
 #include "lib/scene.glsl"
 
@@ -24,23 +24,23 @@ float punctual_attenuation(PunctualLight light, vec3 to_light, float distance_sq
   return attenuation;
 }
 
-// Light of one punctual light, picked uniformly by `u`, times their number.
-PerLobe punctual_light(Grid grid, texture3D distance_field, texture3D material, PathVertex vertex, float u) {
-  uint count = frame.counts.w;
-  if (!has_punctual || count == 0u) return kNoLight;
-  PunctualLight light = lights.punctual[min(uint(u * float(count)), count - 1u)];
+// Light of one of the punctual lights, which must not be closer than `closest` [m], times their number.
+LightSample punctual_sample(PathVertex vertex, PunctualLight light, float closest) {
   bool directional = uint(light.direction.w) == kPunctualDirectional;
   vec3 path = directional ? -light.direction.xyz : light.position.xyz - vertex.position;
-  float distance_squared = max(dot(path, path), 1e-8 * grid.voxel_size * grid.voxel_size);
+  float distance_squared = max(dot(path, path), closest * closest);
   vec3 direction = path * inversesqrt(distance_squared);
-  vec3 arriving = light.intensity.rgb * punctual_attenuation(light, direction, distance_squared) * float(count);
-  PerLobe reflected = scaled(reflectance_towards(vertex, direction), arriving);
-  if (is_black(reflected)) return kNoLight;
-  vec3 target = world_to_grid(grid, light.position.xyz);
-  bool visible = directional ? !march_ray(distance_field, vertex.origin, direction, kFarAway).hit
-                             : light_visible(distance_field, material, vertex.origin, target, 0u);
-  if (!visible) return kNoLight;
-  return reflected;
+  vec3 arriving =
+      light.intensity.rgb * punctual_attenuation(light, direction, distance_squared) * float(frame.counts.w);
+  return LightSample(direction, scaled(reflectance_towards(vertex, direction), arriving));
+}
+
+// Picks a punctual light uniformly by `u`; false where there is none.
+bool pick_punctual(float u, out PunctualLight light) {
+  uint count = frame.counts.w;
+  if (!has_punctual || count == 0u) return false;
+  light = lights.punctual[min(uint(u * float(count)), count - 1u)];
+  return true;
 }
 
 #endif

@@ -79,7 +79,7 @@ struct Emitter {           // the triangles of an entry of the emission table
 };
 struct Hint {
   vec4 position;           // xyz [m]; w: index into the emission table
-  vec4 normal;             // unit geometric normal of the emitter
+  vec4 normal;             // xyz: unit geometric normal of the emitter; w: its triangle (exact below 2^24)
 };
 const uint kPunctualPoint = 0u;
 const uint kPunctualSpot = 1u;

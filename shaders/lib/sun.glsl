@@ -1,8 +1,8 @@
-// The sun: a direction, or a disc that next event estimation and scattered rays find together.
+// The sun: a direction, or a disc that next event estimation and scattered rays find together. Who calls looks for what
+// is in the way.
 #ifndef LIGHTLOOM_LIB_SUN
 #define LIGHTLOOM_LIB_SUN
 
-#include "lib/march.glsl"
 #include "lib/mis.glsl"
 #include "lib/path_vertex.glsl"
 #include "lib/scene.glsl"
@@ -20,16 +20,17 @@ float sun_pdf(float drop) { return 1.0 / (6.28318530717959 * drop); }
 // The irradiance on a surface that faces the sun is radiance times pi sin^2 of the angular radius.
 vec3 sun_radiance(float drop) { return frame.sun_irradiance.rgb / (3.14159265358979 * drop * (2.0 - drop)); }
 
-PerLobe sun_light(texture3D distance_field, PathVertex vertex, vec2 u) {
-  if (!has_sun) return kNoLight;
+LightSample sun_sample(PathVertex vertex, vec2 u) {
+  if (!has_sun) return kNoLightSample;
   float drop = sun_drop();
-  if (drop > 0.0 && !kSampleLights) return kNoLight;
+  if (drop > 0.0 && !kSampleLights) return kNoLightSample;
   vec3 direction = -frame.sun_direction.xyz;
   if (drop > 0.0) direction = sample_cone(direction, drop, u);
   PerLobe reflected = reflectance_towards(vertex, direction);
-  if (is_black(reflected) || march_ray(distance_field, vertex.origin, direction, kFarAway).hit) return kNoLight;
-  if (drop <= 0.0) return scaled(reflected, frame.sun_irradiance.rgb);
-  return scaled(reflected, sun_radiance(drop) * light_sample_weight(sun_pdf(drop), scatter_pdf(vertex, direction)));
+  if (is_black(reflected)) return kNoLightSample;
+  if (drop <= 0.0) return LightSample(direction, scaled(reflected, frame.sun_irradiance.rgb));
+  float weight = light_sample_weight(sun_pdf(drop), scatter_pdf(vertex, direction));
+  return LightSample(direction, scaled(reflected, sun_radiance(drop) * weight));
 }
 
 // Share of the sun's disc that a scattered ray which leaves the scene adds. The distance between unit vectors keeps its
