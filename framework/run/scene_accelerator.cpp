@@ -4,16 +4,23 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "framework/gpu/transfer.hpp"
+#include "framework/scene/spatial_order.hpp"
 
 namespace lightloom::run {
 namespace {
 
 constexpr size_t kGroups = 4;
-constexpr uint32_t kStaticGroups = 0;
-constexpr uint32_t kDynamicGroups = 2;
+
+bool is_masked(size_t group) {
+  return group % 2 == 1;
+}
+bool moves(size_t group) {
+  return group >= 2;
+}
 
 using Groups = std::array<std::vector<uint32_t>, kGroups>;
 
@@ -22,9 +29,11 @@ Groups group_triangles(const scene::Scene& scene) {
   Groups groups;
   for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const bool masked = scene.materials[scene.triangles[t].material].alpha_mode == scene::AlphaMode::mask;
-    const uint32_t first = t < scene.static_triangle_count ? kStaticGroups : kDynamicGroups;
-    groups[first + (masked ? 1 : 0)].push_back(t);
+    const bool dynamic = t >= scene.static_triangle_count;
+    groups[(dynamic ? 2 : 0) + (masked ? 1 : 0)].push_back(t);
   }
+  // Lavapipe's trees split the list of triangles in the middle, whatever they are; other drivers sort for themselves.
+  for (std::vector<uint32_t>& group : groups) scene::order_in_space(scene, group);
   return groups;
 }
 
@@ -58,26 +67,6 @@ gpu::Buffer upload(gpu::Device& device, const std::vector<uint32_t>& list, VkBuf
   return buffer;
 }
 
-/// The two geometries, opaque and masked, of what is static or what moves; both are there, even if empty, so that the
-/// index of a geometry says which it is.
-std::array<gpu::TriangleGeometry, 2> geometries(const scene::Scene& scene, const gpu::Buffer& vertices,
-                                                const gpu::Buffer& indices, const Groups& groups, uint32_t first) {
-  std::array<gpu::TriangleGeometry, 2> pair;
-  uint32_t before = 0;
-  for (uint32_t g = 0; g < first; ++g) before += static_cast<uint32_t>(groups[g].size());
-  for (uint32_t kind = 0; kind < 2; ++kind) {
-    const auto count = static_cast<uint32_t>(groups[first + kind].size());
-    pair[kind] = {.vertices = &vertices,
-                  .vertex_stride = sizeof(scene::Vertex),
-                  .vertex_count = static_cast<uint32_t>(scene.vertices.size()),
-                  .indices = &indices,
-                  .first_triangle = before,
-                  .triangle_count = count,
-                  .opaque = kind == 0};
-    before += count;
-  }
-  return pair;
-}
 static_assert(offsetof(scene::Vertex, position) == 0, "builds read positions from the start of a vertex");
 
 }  // namespace
@@ -90,41 +79,49 @@ SceneAccelerator::SceneAccelerator(gpu::Device& device, const scene::Scene& scen
     : primitives_(upload(device, primitive_list(groups), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "order of the triangles")),
       indices_(upload(device, index_list(scene, groups), gpu::kBuildInputUsage, "corners of the triangles")) {
   std::vector<VkAccelerationStructureInstanceKHR> instances;
-  if (scene.static_triangle_count > 0) {
-    static_.emplace(device, geometries(scene, vertices, indices_, groups, kStaticGroups), gpu::Rebuilding::never,
-                    "the static triangles");
-    instances.push_back(gpu::make_instance(*static_, kStaticGroups));
-  }
-  if (scene.static_triangle_count < scene.triangles.size()) {
-    dynamic_.emplace(device, geometries(scene, vertices, indices_, groups, kDynamicGroups), gpu::Rebuilding::often,
-                     "the dynamic triangles");
-    instances.push_back(gpu::make_instance(*dynamic_, kDynamicGroups));
+  uint32_t first = 0;
+  for (uint32_t group = 0; group < kGroups; ++group) {
+    const auto count = static_cast<uint32_t>(groups[group].size());
+    if (count == 0) continue;
+    const gpu::TriangleGeometry geometry{.vertices = &vertices,
+                                         .vertex_stride = sizeof(scene::Vertex),
+                                         .vertex_count = static_cast<uint32_t>(scene.vertices.size()),
+                                         .indices = &indices_,
+                                         .first_triangle = first,
+                                         .triangle_count = count,
+                                         .opaque = !is_masked(group)};
+    std::list<gpu::AccelerationStructure>& target = moves(group) ? dynamic_ : static_;
+    target.emplace_back(device, std::span(&geometry, 1), moves(group) ? gpu::Rebuilding::often : gpu::Rebuilding::never,
+                        std::string("the ") + (moves(group) ? "dynamic" : "static") +
+                            (is_masked(group) ? " alpha-masked" : "") + " triangles");
+    instances.push_back(gpu::make_instance(target.back(), group));
+    first += count;
   }
   const std::span<const std::byte> bytes = std::as_bytes(std::span(instances));
   instances_.emplace(device, std::max(bytes.size(), sizeof(VkAccelerationStructureInstanceKHR)), gpu::kBuildInputUsage,
                      gpu::MemoryKind::upload, "instances");
   std::copy(bytes.begin(), bytes.end(), instances_->mapped().begin());
   top_.emplace(device, *instances_, static_cast<uint32_t>(instances.size()),
-               dynamic_ ? gpu::Rebuilding::often : gpu::Rebuilding::never, "the scene");
+               !dynamic_.empty() ? gpu::Rebuilding::often : gpu::Rebuilding::never, "the scene");
   build_what_rests(device);
 }
 
 void SceneAccelerator::build_what_rests(gpu::Device& device) {
   device.run_commands([&](VkCommandBuffer commands) {
     gpu::record_full_barrier(commands);
-    if (static_) static_->record_build(commands);
+    for (const gpu::AccelerationStructure& structure : static_) structure.record_build(commands);
     gpu::record_full_barrier(commands);
-    if (!dynamic_) top_->record_build(commands);
+    if (dynamic_.empty()) top_->record_build(commands);
     gpu::record_full_barrier(commands);
   });
-  if (static_) static_->release_scratch();
-  if (!dynamic_) top_->release_scratch();
+  for (gpu::AccelerationStructure& structure : static_) structure.release_scratch();
+  if (dynamic_.empty()) top_->release_scratch();
 }
 
 void SceneAccelerator::record_rebuild(VkCommandBuffer commands) const {
-  if (!dynamic_) return;
+  if (dynamic_.empty()) return;
   gpu::record_full_barrier(commands);
-  dynamic_->record_build(commands);
+  for (const gpu::AccelerationStructure& structure : dynamic_) structure.record_build(commands);
   gpu::record_full_barrier(commands);
   top_->record_build(commands);
   gpu::record_full_barrier(commands);

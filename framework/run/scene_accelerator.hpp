@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <list>
 #include <optional>
 #include <vector>
 
@@ -10,8 +11,8 @@
 
 namespace lightloom::run {
 
-/// The scene's triangles for ray queries: one structure of those that never move, built once, one of the others, built
-/// in every frame, and one over both. Alpha-masked triangles are geometries of their own, as only they ask the shader.
+/// The scene's triangles for ray queries: structures of those that never move, built once, of the others, built in
+/// every frame, and one over all. Alpha-masked triangles have structures of their own, as only they ask the shader.
 class SceneAccelerator {
  public:
   /// `vertices`: all of the scene's, on the device, with gpu::kBuildInputUsage among its usages; the static ones are
@@ -33,8 +34,8 @@ class SceneAccelerator {
 
   gpu::Buffer primitives_;
   gpu::Buffer indices_;
-  std::optional<gpu::AccelerationStructure> static_;   ///< empty: no triangle is static
-  std::optional<gpu::AccelerationStructure> dynamic_;  ///< empty: none moves
+  std::list<gpu::AccelerationStructure> static_;
+  std::list<gpu::AccelerationStructure> dynamic_;
   std::optional<gpu::Buffer> instances_;
   std::optional<gpu::AccelerationStructure> top_;
 };

@@ -19,8 +19,8 @@ struct RayHit {
   vec2 weights;    // barycentric, of corners b and c
 };
 
-// `list`: custom index of the instance, the first of its two lists; `masked`: index of the geometry.
-uint met_triangle(int list, int masked, int primitive) { return primitives[primitives[list + masked] + primitive]; }
+// `list`: custom index of the instance.
+uint met_triangle(int list, int primitive) { return primitives[primitives[list] + primitive]; }
 
 vec3 corner_weights(vec2 weights) { return vec3(1.0 - weights.x - weights.y, weights); }
 
@@ -44,7 +44,6 @@ RayHit trace_ray(vec3 origin, vec3 direction, float reach, uint flags) {
   while (rayQueryProceedEXT(query)) {
     if (rayQueryGetIntersectionTypeEXT(query, false) != gl_RayQueryCandidateIntersectionTriangleEXT) continue;
     uint triangle = met_triangle(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false),
-                                 rayQueryGetIntersectionGeometryIndexEXT(query, false),
                                  rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
     if (!cut_out_at(triangle, rayQueryGetIntersectionBarycentricsEXT(query, false)))
       rayQueryConfirmIntersectionEXT(query);
@@ -52,7 +51,6 @@ RayHit trace_ray(vec3 origin, vec3 direction, float reach, uint flags) {
   if (rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionTriangleEXT)
     return RayHit(false, 0u, vec2(0.0));
   uint triangle = met_triangle(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true),
-                               rayQueryGetIntersectionGeometryIndexEXT(query, true),
                                rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
   return RayHit(true, triangle, rayQueryGetIntersectionBarycentricsEXT(query, true));
 }
