@@ -40,7 +40,7 @@ vec3 trace_incoming(PathVertex vertex, BsdfSample scatter, RandomKey key) {
     least_alpha = max(least_alpha, min(scatter.roughness, regularization));
     SurfaceHit hit = surface_hit(met, direction, least_alpha);
     radiance += throughput * emitted_light(hit, from, direction, scatter);
-    if (bounce > bounces || hit.unlit) break;
+    if (bounce > bounces) break;
     vertex = hit.vertex;
     PerLobe direct = direct_light(vertex, key, bounce);
     radiance += throughput * (direct.diffuse + direct.specular);

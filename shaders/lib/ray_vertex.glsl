@@ -10,7 +10,6 @@ struct SurfaceHit {
   PathVertex vertex;
   vec3 emission;       // towards where the ray came from [W m^-2 sr^-1]
   uint emission_entry; // of the emission table, by which hints are drawn here; 0: none are
-  bool unlit;          // shows `emission` alone
 };
 
 // Where rays leave a triangle on the side of the unit normal `side`.
@@ -29,7 +28,8 @@ void refine_first_hit(inout PathVertex vertex, uint triangle) {
   vertex.origin = ray_origin(on_plane, normal, corners);
 }
 
-// The surface that a ray met, with lobes at least as wide as `least_alpha`.
+// The surface that a ray met, with lobes at least as wide as `least_alpha`. What is unlit shows its colour to the viewer
+// alone; here it reflects like anything else.
 SurfaceHit surface_hit(RayHit hit, vec3 direction, float least_alpha) {
   Triangle t = triangles[hit.triangle];
   vec3 w = corner_weights(hit.weights);
@@ -52,8 +52,6 @@ SurfaceHit surface_hit(RayHit hit, vec3 direction, float least_alpha) {
   bool emits = !back || materials[t.material].flags.y != 0u;
   result.emission = emits ? m.emission : vec3(0.0);
   result.emission_entry = emits ? emission_index(t.material, m.emission) : 0u;
-  result.unlit = m.unlit;
-  if (m.unlit) result.emission += m.base_color;
   return result;
 }
 

@@ -248,6 +248,19 @@ TEST_F(Commands, devices_lists_what_rendering_uses) {
   const nlohmann::json devices = nlohmann::json::parse(out_)["devices"];
   ASSERT_THAT(devices, Not(IsEmpty()));
   EXPECT_TRUE(devices[0].contains("usable"));
+  ASSERT_TRUE(devices[0].contains("ray_queries"));
+  EXPECT_EQ(devices[0]["ray_queries"], devices[0]["ray_queries_missing"] == "");
+}
+
+TEST_F(Commands, a_device_that_lacks_what_a_pass_needs_is_named_and_nothing_is_written) {
+  ASSERT_EQ(run({"devices", "--json"}), 0);
+  for (const nlohmann::json& device : nlohmann::json::parse(out_)["devices"])
+    if (device["ray_queries"] == true) GTEST_SKIP() << "a device here has ray queries";
+  const std::string out = (folder_ / "run").string();
+  EXPECT_EQ(run({"render", kGraph, "--scene", kScene, "--swap", "trace=ray_query_path_trace", "--out", out}), 4);
+  EXPECT_THAT(err_, AllOf(HasSubstr("pass 'trace' (ray_query_path_trace) needs VK_KHR_ray_query"), HasSubstr("hint: "),
+                          HasSubstr("reference_path_trace")));
+  EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 TEST_F(Commands, completion_knows_the_real_commands) {

@@ -326,5 +326,25 @@ TEST(Reflection, WhatIsNoSpirvIsAnError) {
   EXPECT_THAT(error_of([&] { static_cast<void>(reflect(std::span(&module, 1))); }).what(), HasSubstr("nonsense"));
 }
 
+TEST(RayQueryReflection, AccelerationStructureIsABindingOfItsOwnKind) {
+  const ShaderProgram program = compile_compute(R"(
+#extension GL_EXT_ray_query : require
+layout(local_size_x = 8) in;
+uniform accelerationStructureEXT scene_tlas;
+layout(std430) buffer HitBlock { float hits[]; };
+void main() {
+  rayQueryEXT query;
+  rayQueryInitializeEXT(query, scene_tlas, gl_RayFlagsOpaqueEXT, 0xFFu, vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), 1e30);
+  while (rayQueryProceedEXT(query)) {}
+  hits[gl_GlobalInvocationID.x] = rayQueryGetIntersectionTEXT(query, true);
+}
+)");
+  const Binding* binding = program.reflection.find_binding("scene_tlas");
+  ASSERT_NE(binding, nullptr);
+  EXPECT_EQ(binding->kind, BindingKind::acceleration_structure);
+  EXPECT_EQ(binding->count, 1u);
+  EXPECT_EQ(to_string(binding->kind), "acceleration structure");
+}
+
 }  // namespace
 }  // namespace lightloom::gpu

@@ -82,5 +82,17 @@ TEST(LightloomGraph, EveryVariantAndEveryStageAloneLinksWithoutHazard) {
   }
 }
 
+TEST(LightloomGraph, TrianglesTakeThePlaceOfVoxels) {
+  LinkOptions options;
+  options.swaps = {{"trace", "ray_query_path_trace"}};
+  const Graph graph = lightloom_graph(options);
+  for (const char* voxels : {"voxelize_static", "voxelize_dynamic", "merge", "distance", "emissive_faces"})
+    EXPECT_FALSE(runs(graph, voxels)) << voxels;
+  for (const char* rest : {"gather", "trace_surface", "trace", "temporal_diffuse", "temporal_specular", "modulate"})
+    EXPECT_TRUE(runs(graph, rest)) << rest;
+  EXPECT_EQ(toy::pass(graph, "trace").params.choice("ward"), "bounded");
+  EXPECT_EQ(toy::pass(graph, "trace").params.choice("environment_sampling"), "image");
+}
+
 }  // namespace
 }  // namespace lightloom
