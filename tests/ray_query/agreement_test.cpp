@@ -18,7 +18,7 @@ class RayQueryAgreement : public RayQueryTest {
                                    const std::string& type = "ray_query_path_trace", uint32_t seed = 1) {
     return image_estimate(
         trace_rays(scene, {.params = params, .bounces = {2}, .type = type, .size = 48, .frames = frames, .seed = seed}),
-        "radiance", 1);
+        "radiance", 2);
   }
   /// Against the reference, which shares no code with the shaders.
   static void expect_reference(const scene::Scene& scene, const std::string& what, uint32_t frames = 16) {
@@ -61,21 +61,22 @@ TEST_F(RayQueryAgreement, ReferenceUnderLamps) {
   expect_reference(lamps_scene(), "lamps");
 }
 
-/// An image whose left half is cut out and whose rest is a pattern of colours.
+/// An image whose left half is cut out and whose rest is a pattern of colours. Only black and white, since lavapipe
+/// turns the sRGB values between them into light with errors of up to two percent.
 scene::Image pattern(bool srgb) {
   return make_image(
       8, 8,
       [](uint32_t x, uint32_t y) {
-        const auto shade = static_cast<uint8_t>((x ^ y) % 2 == 0 ? 230 : 90);
-        return std::array<uint8_t, 4>{shade, static_cast<uint8_t>(255 - shade), 160,
-                                      static_cast<uint8_t>(x < 4 ? 0 : 255)};
+        const bool even = (x ^ y) % 2 == 0, holes = x < 4;
+        return std::array<uint8_t, 4>{static_cast<uint8_t>(even ? 255 : 0), static_cast<uint8_t>(y < 4 ? 255 : 0), 255,
+                                      static_cast<uint8_t>(holes ? 0 : 255)};
       },
       srgb);
 }
 
 /// A textured screen with holes before a textured, glossy wall, under a disc of a sun, a sky and a bulb.
 scene::Scene screen_scene() {
-  scene::Material screen = lambertian(glm::vec3(1));
+  scene::Material screen = lambertian(glm::vec3(0.7f));
   screen.base_color_texture.image = 0;
   screen.base_color_texture.nearest = true;
   screen.alpha_mode = scene::AlphaMode::mask;

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
+#include <utility>
 
 #include "tests/passes/estimator_support.hpp"
 #include "tests/ray_query/ray_query_support.hpp"
