@@ -28,7 +28,7 @@ struct SceneResourceOptions {
   Extent3 view;
   uint32_t seed = 0;
   double frames_per_second = 30;
-  bool general = false;  ///< shaders see every feature, whatever the scene has
+  bool general = false;      ///< shaders see every feature, whatever the scene has
   bool ray_queries = false;  ///< some pass asks what rays meet: builds acceleration structures
 };
 
