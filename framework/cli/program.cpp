@@ -17,7 +17,7 @@ Examples:
   lightloom render graphs/paper.json --scene samples/scenes/atrium.scene.json --out out/atrium
   lightloom check graphs/paper.json
   lightloom passes voxel_path_trace
-  lightloom study --graph graphs/paper.json --scene samples/scenes/atrium.scene.json --ablate 'denoise_*,temporal'
+  lightloom study samples/studies/ablation.json --out out/ablation
   source <(lightloom completion bash))";
 
 ExitCode answer(const ParseResult& result, const CommandContext& context) {
