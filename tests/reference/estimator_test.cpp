@@ -12,13 +12,13 @@ namespace {
 
 /// Glossy and matte surfaces under every kind of light, with things in the way. `small`: lights that rays hardly ever
 /// meet.
-scene::Scene mixed_scene(bool small) {
+scene::Scene mixed_scene(bool small, float roughness = 0.5f) {
   SceneBuilder builder;
   scene::Material glossy = matte(glm::vec3(0.6f, 0.5f, 0.3f));
   glossy.specular_factor = 1;
-  glossy.roughness = 0.5f;
-  scene::Material brushed = white_metal(0.45f);
-  brushed.anisotropy_strength = 0.6f;
+  glossy.roughness = roughness;
+  scene::Material brushed = white_metal(0.9f * roughness);
+  brushed.anisotropy_strength = roughness > 0.2f ? 0.6f : 0;
   brushed.anisotropy_rotation = 0.7f;
   scene::Material lamp = matte(glm::vec3(0.2f), glm::vec3(4, 3, 2));
   lamp.double_sided = true;
@@ -95,6 +95,17 @@ TEST(ReferenceEstimator, StrategiesAgreeInAllForms) {
     by_lights.path.ward = by_rays.path.ward = ward;
     const Estimate a = whole(trace(scene, by_lights)), b = whole(trace(scene, by_rays));
     EXPECT_LT(std::abs(a.mean - b.mean), 4 * std::hypot(a.error, b.error)) << a.mean << " and " << b.mean;
+  }
+}
+
+TEST(ReferenceEstimator, StrategiesAgreeOnNarrowLobesAndMirrors) {
+  for (const float roughness : {0.1f, 0.04f, 0.0f}) {
+    const scene::Scene scene = mixed_scene(false, roughness);
+    const Estimate a = whole(trace(scene, settings(3000, 6)));
+    const Estimate b = whole(trace(scene, settings(8000, 7, reference::Strategy::bsdf)));
+    EXPECT_LT(std::abs(a.mean - b.mean), 4 * std::hypot(a.error, b.error))
+        << roughness << ": " << a.mean << " and " << b.mean;
+    EXPECT_LT(a.error, 0.01 * a.mean) << roughness;
   }
 }
 
