@@ -12,6 +12,10 @@ void GraphOptions::add_to(Command& command) {
       .placeholder("GLOB");
   group(command.option("--swap", swaps, "Exchange the type of the passes that match, e.g. trace=reference_path_trace"))
       .placeholder("GLOB=TYPE");
+  group(command.option("--geometry", geometry,
+                       "What the passes of type reference_path_trace trace: the scene's triangles, or its voxels"))
+      .choices({"triangles", "voxels"})
+      .default_text("as the graph has it");
   group(command.option("--dump", dumps, "Write the values that match PASS.PORT or PASS.PORT.PART, '*' for all of them"))
       .placeholder("GLOB");
   group(command.flag("--no-hoist", no_hoist,
@@ -31,6 +35,7 @@ LinkOptions GraphOptions::link_options() const {
   options.captures = dumps;
   for (const Assignment& set : sets) options.sets.emplace_back(set.name, set.value);
   for (const Assignment& swap : swaps) options.swaps.emplace_back(swap.name, swap.value);
+  if (!geometry.empty()) options.type_sets.push_back({"--geometry", "reference_path_trace", "geometry", geometry});
   options.hoist = !no_hoist;
   options.general = general;
   if (size) options.view = {size->width, size->height};

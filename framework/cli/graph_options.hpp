@@ -16,6 +16,7 @@ struct GraphOptions {
   std::vector<std::string> disables;
   std::vector<Assignment> swaps;
   std::vector<std::string> dumps;
+  std::string geometry;
   std::optional<Size> size;
   std::optional<Size> trace_size;
   bool no_hoist = false;

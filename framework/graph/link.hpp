@@ -14,12 +14,22 @@
 
 namespace lightloom {
 
+/// A param of all passes of a type, whatever their names.
+struct TypeSet {
+  std::string option;  ///< that asked for it, the place of its errors: "--geometry"
+  std::string type;
+  std::string param;
+  std::string value;
+};
+
 /// What the command line asks for. Applied in this order: each variant in turn (its swap, disable, set), then `swaps`,
-/// `disables`, `sets`. Problems are reported at file "--variant", "--swap", "--disable", "--set", "--dump", "--size",
+/// `type_sets`, `disables`, `sets`. Problems are reported at file "--variant", "--swap", "--disable", "--set",
+/// "--dump", "--size",
 /// "--trace-size", line 0.
 struct LinkOptions {
   std::vector<std::string> variants;
   std::vector<std::pair<std::string, std::string>> swaps;  ///< pass glob, type
+  std::vector<TypeSet> type_sets;                          ///< each needs a pass of its type
   std::vector<std::string> disables;                       ///< pass globs
   std::vector<std::pair<std::string, std::string>> sets;   ///< "PARAM" or "PASS.PARAM" (PASS a glob), value text
   std::optional<std::pair<uint32_t, uint32_t>> view;       ///< width, height [pixels]

@@ -62,6 +62,7 @@ class Editor {
 
   void options(const LinkOptions& options) {
     for (const auto& [pass, type] : options.swaps) swap({{pass, {"--swap", 0, 0}}, {type, {"--swap", 0, 0}}}, "--swap");
+    for (const TypeSet& entry : options.type_sets) set_by_type(entry);
     for (const std::string& glob : options.disables) disable({glob, {"--disable", 0, 0}}, "--disable");
     const SourceLocation where{"--set", 0, 0};
     for (const auto& [name, text] : options.sets) set({name, where, parse_value(text), where}, text);
@@ -149,6 +150,19 @@ class Editor {
                     "pass " + in_quotes(glob) + " of type '" + matches.front()->type->name + "' has no param " +
                         in_quotes(entry.name),
                     did_you_mean(entry.name, names, "its params"));
+  }
+
+  void set_by_type(const TypeSet& entry) {
+    const SourceLocation where{entry.option, 0, 0};
+    bool found = false;
+    for (const Node& node : nodes_.list) {
+      if (node.type == nullptr || node.type->name != entry.type) continue;
+      set_pass_param(node.spec->name, {entry.param, where, parse_value(entry.value), where}, entry.value);
+      found = true;
+    }
+    if (!found)
+      report_.error("no-match", where, "the graph has no pass of type '" + entry.type + "'",
+                    "put one in the place of another, for instance --swap trace=" + entry.type);
   }
 
   Nodes& nodes_;

@@ -144,6 +144,27 @@ TEST(Swap, ReportsInputsThatTheNewTypeNeeds) {
   EXPECT_EQ(result.codes(), Names{"missing-input"}) << result.text();
 }
 
+TEST(Options, AParamOfAllPassesOfATypeIsSetAfterSwaps) {
+  const std::string text = file(kSource + R"(, "f": {"type": "choosy", "in": {"x": "s.a"}},
+           "g": {"type": "choosy", "in": {"x": "s.a"}}, "b": {"type": "blur", "in": {"x": "s.a"}})",
+                                R"("o": "f.a", "p": "g.a", "q": "b.a")");
+  LinkOptions options;
+  options.type_sets = {{"--reading", "choosy", "reading", "both"}};
+  options.swaps = {{"b", "choosy"}};
+  const Graph graph = graph_of(text, options);
+  for (const char* name : {"f", "g", "b"}) EXPECT_EQ(toy::pass(graph, name).params.choice("reading"), "both") << name;
+  options.sets = {{"g.reading", "one"}};
+  EXPECT_EQ(toy::pass(graph_of(text, options), "g").params.choice("reading"), "one") << "--set has the last word";
+  options.sets.clear();
+  options.type_sets[0].type = "shade";
+  const toy::Result none = link_text(text, options);
+  ASSERT_EQ(none.codes(), Names{"no-match"}) << none.text();
+  EXPECT_EQ(none.diagnostics.all()[0].where, (SourceLocation{"--reading", 0, 0}));
+  EXPECT_NE(none.diagnostics.all()[0].hint.find("--swap trace=shade"), std::string::npos);
+  options.type_sets[0] = {"--reading", "choosy", "reading", "neither"};
+  EXPECT_EQ(link_text(text, options).codes(), (Names{"unknown-choice", "unknown-choice", "unknown-choice"}));
+}
+
 TEST(Options, ApplyInTheirOrder) {
   const std::string text = file(
       R"("s": {"type": "source", "params": {"count": "$n"}}, "f": {"type": "filter", "in": {"x": "s.a"}})",
