@@ -5,7 +5,9 @@
 
 #include "framework/base/error.hpp"
 #include "framework/reference/trace_image.hpp"
+#include "framework/reference/voxel_geometry.hpp"
 #include "framework/scene/frame_scene.hpp"
+#include "framework/scene/lights.hpp"
 #include "passes/port_rows.hpp"
 
 namespace lightloom::passes {
@@ -84,6 +86,9 @@ std::vector<Param> params() {
           "geometry", "triangles", {"triangles", "voxels"},
           "what paths meet after the first hit: the scene's triangles; or the voxels of input `voxels`, so that what "
           "voxels do to the light is told apart from what a real-time tracer makes of them"),
+      choice("emitter_area", "voxels", {"voxels", "surface"},
+             "with `geometry` voxels, radiance of emissive ones: the material's; or scaled so that all voxels of an "
+             "emission have the power of its triangles, at most by 4"),
       choice("pixel_filter", "center", {"center", "box"},
              "where in a pixel paths start: at its centre, as those of the G-buffer; or anywhere in it, which "
              "antialiases; only without input `surface`"),
@@ -105,6 +110,29 @@ reference::SurfaceImages surface_images(HostContext& context) {
           .normal = texels_of<uint16_t>(context, "normal"),
           .albedo = texels_of<uint16_t>(context, "albedo"),
           .material = texels_of<uint16_t>(context, "material")};
+}
+
+reference::VoxelImages voxel_images(HostContext& context) {
+  const auto bytes = [&](const char* part) {
+    const std::span<const std::byte> texels = context.input("voxels", part).texels;
+    return std::span(reinterpret_cast<const uint8_t*>(texels.data()), texels.size());
+  };
+  const Extent3 extent = context.input("voxels", "albedo").extent;
+  return {.extent = {extent.width, extent.height, extent.depth},
+          .albedo = bytes("albedo"),
+          .normal = bytes("normal"),
+          .material = bytes("material")};
+}
+
+/// Of the triangles of each entry [m^2]; empty where voxels emit what the material says, however large they are.
+std::vector<float> emitting_areas(HostContext& context, const scene::EmissionTable& table) {
+  if (context.params().choice("emitter_area") == "voxels") return {};
+  const scene::FrameScene& frame = context.scene();
+  auto sampler = context.derived<scene::EmitterSampler>([&] { return scene::EmitterSampler(*frame.scene, table); });
+  sampler.update(*frame.scene, frame.pose->dynamic_vertices);
+  std::vector<float> areas;
+  for (uint32_t entry = 0; entry < table.entries.size(); ++entry) areas.push_back(sampler.emitting_area(entry));
+  return areas;
 }
 
 reference::ImageSettings settings_of(const ParamSet& params, const scene::FrameScene& scene, const Extent3& extent) {
@@ -149,9 +177,11 @@ void check(HostContext& context) {
     throw Error(ExitCode::invalid_input,
                 "reference_path_trace: param 'pixel_filter' is 'box', but the input 'surface' fixes where paths start",
                 "leave 'surface' unconnected or set pixel_filter to center");
-  if (context.params().choice("geometry") == "voxels")
-    throw Error(ExitCode::invalid_input, "reference_path_trace: param 'geometry' is 'voxels', which is not there yet",
-                "set it to triangles");
+  if (context.params().choice("geometry") == "voxels" && !context.connected("voxels"))
+    throw Error(ExitCode::invalid_input,
+                "reference_path_trace: param 'geometry' is 'voxels', but the input 'voxels' is not connected",
+                "connect it to the voxels of the scene, or put the pass into a graph that has them: graphs/paper.json "
+                "--swap trace=reference_path_trace");
 }
 
 void trace(HostContext& context) {
@@ -175,9 +205,15 @@ void trace(HostContext& context) {
     return reference::hit_through(geometry, camera, x + static_cast<double>(place.x), y + static_cast<double>(place.y));
   };
   const Outputs outputs(context, extent.width);
-  reference::trace_image(
-      geometry, lights, settings_of(context.params(), frame, extent), !box, first_hit,
-      [&](uint32_t x, uint32_t y, const reference::TracedPixel& pixel) { outputs.write(x, y, pixel); });
+  const auto trace_through = [&](const auto& paths_meet) {
+    reference::trace_image(
+        paths_meet, lights, settings_of(context.params(), frame, extent), !box, first_hit,
+        [&](uint32_t x, uint32_t y, const reference::TracedPixel& pixel) { outputs.write(x, y, pixel); });
+  };
+  if (context.params().choice("geometry") == "triangles") return trace_through(geometry);
+  const auto& table = context.derived<scene::EmissionTable>([&] { return scene::build_emission_table(*frame.scene); });
+  trace_through(reference::VoxelGeometry(voxel_images(context), frame.scene->bounds, table.entries,
+                                         emitting_areas(context, table)));
 }
 
 }  // namespace
@@ -186,7 +222,8 @@ PassType make_reference_path_trace() {
   PassType type;
   type.name = "reference_path_trace";
   type.doc =
-      "Ground truth: global illumination by unbiased path tracing of the scene's triangles on the host, with all its "
+      "Ground truth: global illumination by unbiased path tracing of the scene's triangles, or of its voxels, on the "
+      "host, with all its "
       "cores (Embree), sharing no code with the shaders. Next event estimation and sampling of the reflection, "
       "combined "
       "by multiple importance sampling (Veach 1997); nothing is clamped or regularized.";

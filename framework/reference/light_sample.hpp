@@ -11,6 +11,7 @@ struct LightSample {
   glm::vec3 radiance{0};         ///< [W m^-2 sr^-1]; of a light without extent the irradiance on a surface facing it
   float pdf = 0;                 ///< [sr^-1]; 0: no sample. Of a light without extent 1
   float distance = std::numeric_limits<float>::infinity();  ///< where the light is [m]
+  bool point = false;                                       ///< a light without extent that has a place
 };
 
 /// Radiance that a ray met.

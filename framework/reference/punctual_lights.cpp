@@ -40,7 +40,8 @@ LightSample PunctualLights::arriving(const Light& light, const glm::vec3& positi
     const double inside = std::clamp(cosine * light.cosine_scale + light.cosine_offset, 0.0, 1.0);
     falloff *= inside * inside;
   }
-  return {glm::vec3(direction), glm::vec3(glm::dvec3(source.intensity) * falloff), 1, static_cast<float>(distance)};
+  return {glm::vec3(direction), glm::vec3(glm::dvec3(source.intensity) * falloff), 1, static_cast<float>(distance),
+          true};
 }
 
 LightSample PunctualLights::sample(const glm::vec3& position, float pick) const {
