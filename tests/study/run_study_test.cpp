@@ -71,6 +71,25 @@ TEST_F(StudyTest, FinishedCellsAreNeverRenderedAgain) {
   EXPECT_EQ(rendered_, 1U) << "a reference that is made again is the same, and so is its judgement";
 }
 
+TEST_F(StudyTest, ProgressCountsWhatIsDoneAndKnowsTheTimeLeft) {
+  const gpu::DeviceInfo device = gpu::Device().info();
+  Diagnostics diagnostics;
+  const auto plan = study::plan_study(spec_of(small_study({{"seeds", 3}})), {registry_, device}, diagnostics);
+  const study::StudyFolder kept(folder_ / "out");
+  EXPECT_FALSE(study::time_needed(plan.value(), kept).has_value()) << "nothing was done that one could learn from";
+  std::vector<study::StudyProgress> seen;
+  (void)study::run_study(*plan, kept, {}, [&](const study::StudyProgress& progress) { seen.push_back(progress); });
+  ASSERT_FALSE(seen.empty());
+  EXPECT_EQ(seen.front().done, 0U);
+  EXPECT_FALSE(seen.front().seconds_left.has_value());
+  EXPECT_EQ(seen.back().done, 4U);
+  EXPECT_EQ(seen.back().total, 4U);
+  EXPECT_EQ(seen.back().seconds_left, 0.0);
+  for (size_t i = 1; i < seen.size(); ++i) EXPECT_GE(seen[i].done, seen[i - 1].done);
+  EXPECT_GT(seen.size(), 8U) << "after each frame, too";
+  EXPECT_EQ(study::time_needed(*plan, kept), 0.0);
+}
+
 TEST_F(StudyTest, AJobAtATimeOrSeveralGiveTheSame) {
   const ordered_json study = small_study({{"sweep", {{"paths", {1, 2}}, {"bounces", {1, 2}}}}, {"seeds", 2}});
   const StudyResults one = run(study, "one");

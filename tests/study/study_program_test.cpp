@@ -156,6 +156,17 @@ TEST_F(StudyProgram, AnAblationNeedsNoFile) {
     EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
 }
 
+TEST_F(StudyProgram, TheStudiesThatComeWithItCanBeRun) {
+  size_t studies = 0;
+  for (const auto& entry : fs::directory_iterator(source_dir() / "samples/studies")) {
+    ++studies;
+    EXPECT_EQ(run_program({"study", entry.path().string(), "--dry-run", "-o", (folder_ / "out").string()}), 0) << log();
+    EXPECT_THAT(log(), ::testing::HasSubstr("cells of")) << entry.path();
+    EXPECT_THAT(log(), ::testing::Not(::testing::HasSubstr("cannot be run"))) << entry.path();
+  }
+  EXPECT_EQ(studies, 6U);
+}
+
 TEST_F(StudyProgram, WrongUsageIsTold) {
   const std::string graph = (source_dir() / "graphs/paper.json").string();
   const std::string scene = (source_dir() / "samples/scenes/atrium.scene.json").string();
