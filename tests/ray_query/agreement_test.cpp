@@ -104,6 +104,28 @@ TEST_F(RayQueryAgreement, ReferenceThroughATexturedScreenWithHoles) {
   expect_reference(screen_scene(), "screen");
 }
 
+/// A floor under a lamp of bright and black texels.
+scene::Scene textured_lamp_scene() {
+  scene::Material lamp = lamp_material(glm::vec3(6));
+  lamp.emissive_texture.image = 0;
+  lamp.emissive_texture.nearest = true;
+  scene::Scene scene = make_quad_scene({square_floor(2), {{-1, 0.8f, -1}, {2, 0, 0}, {0, 0, 2}, 1}},
+                                       {lambertian(glm::vec3(0.5f)), lamp}, look_at({0, 0.7f, 2.6f}, {0, 0, 0}, 0.8f));
+  scene.images = {pattern(true)};
+  scene.features.textured = true;
+  return scene;
+}
+
+TEST_F(RayQueryAgreement, ReferenceUnderATexturedLamp) {
+  const scene::Scene scene = textured_lamp_scene();
+  const ImageEstimate reference = estimate_of(scene, R"("paths": 32)", 16, "reference_path_trace", 5);
+  const std::string params = R"("paths": 16, "regularization": 0, "strategy": )";
+  expect_agreement(estimate_of(scene, params + R"("bsdf")", 16), reference, "scattered rays");
+  // How much of the lamp emits is estimated from 256 points, and hints are drawn by that.
+  EXPECT_NEAR(estimate_of(scene, params + R"("nee")", 16).whole.mean, reference.whole.mean,
+              0.02 * reference.whole.mean);
+}
+
 TEST_F(RayQueryAgreement, ReferenceInTheCornellBox) {
   const std::filesystem::path file =
       source_dir() / "../shared/scenes/cornell_box_original_emissive/scene_lambertian.gltf";

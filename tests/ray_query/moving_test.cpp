@@ -30,24 +30,40 @@ scene::Scene moving_square() {
   return with_moving(std::move(scene), {square});
 }
 
-TEST_F(RayQueryMoving, ShadowsFollowWhatThrowsThem) {
-  const std::vector<Images> frames =
-      trace_rays(moving_square(), {.params = R"("paths": 1, "strategy": "nee")", .bounces = {0}, .frames = kFrames});
+/// Expects a sharp shadow under the square in each frame, or none.
+void expect_shadows(const std::vector<Images>& frames, bool any) {
   for (int frame = 0; frame < kFrames; ++frame) {
+    const Images& images = frames[static_cast<size_t>(frame)];
     const double center = 0.3 * frame - 0.6;
     int shaded = 0;
     for (uint32_t y = 0; y < 32; ++y)
       for (uint32_t x = 0; x < 32; ++x) {
-        const glm::dvec3 p = surface_position(frames[static_cast<size_t>(frame)], x, y);
+        const glm::dvec3 p = surface_position(images, x, y);
         ASSERT_NEAR(p.y, 0, 1e-5);
         const double inside = std::max(std::abs(p.x - center), std::abs(p.z)) - 0.5;
         if (std::abs(inside) < 1e-3) continue;
-        const double expected = inside < 0 ? 0 : 3 / kPi;
-        ASSERT_NEAR(frames[static_cast<size_t>(frame)].at("radiance").at(x, y, 0, 0), expected, 1e-4)
+        const bool dark = any && inside < 0;
+        ASSERT_NEAR(images.at("radiance").at(x, y, 0, 0), dark ? 0 : 3 / kPi, 1e-4)
             << "frame " << frame << " at " << x << " " << y;
-        shaded += inside < 0 ? 1 : 0;
+        shaded += dark ? 1 : 0;
       }
-    EXPECT_GT(shaded, 80);
+    EXPECT_EQ(shaded > 80, any);
+  }
+}
+
+const RaySettings kDirectLight{.params = R"("paths": 1, "strategy": "nee")", .bounces = {0}, .frames = kFrames};
+
+TEST_F(RayQueryMoving, ShadowsFollowWhatThrowsThem) {
+  expect_shadows(trace_rays(moving_square(), kDirectLight), true);
+}
+
+TEST_F(RayQueryMoving, WhatIsCutOutThrowsNone) {
+  for (const float alpha : {0.2f, 0.8f}) {
+    scene::Scene scene = moving_square();
+    scene.materials.back().alpha_mode = scene::AlphaMode::mask;
+    scene.materials.back().base_color.a = alpha;
+    scene.features.alpha = true;
+    expect_shadows(trace_rays(scene, kDirectLight), alpha > 0.5f);
   }
 }
 

@@ -11,15 +11,17 @@ manifest=$folder/lvp_icd.json
 
 say() { printf 'newer lavapipe: %s\n' "$*" >&2; }
 
-# Writes the source of backports that belongs to the system's own sources to $1.
+release() {
+  sed -n -E 's/^VERSION_CODENAME="?([^"]*)"?$/\1/p' /etc/os-release
+}
+
+# Derives the source of backports from the system's own sources; writes it to $1.sources or $1.list and prints which.
 write_source() {
-  local release sources=(/etc/apt/sources.list.d/*.sources) lists=(/etc/apt/sources.list /etc/apt/sources.list.d/*.list)
-  release=$(. /etc/os-release && printf '%s' "${VERSION_CODENAME:-}")
-  [[ -n $release ]] || return 1
-  for file in "${sources[@]}"; do
+  local file
+  for file in /etc/apt/sources.list.d/*.sources; do
     [[ -r $file ]] || continue
     # The first paragraph whose suites name the release itself.
-    awk -v release="$release" 'BEGIN { RS = ""; FS = "\n" }
+    awk -v release="$(release)" 'BEGIN { RS = ""; FS = "\n" }
       { found = 0
         for (i = 1; i <= NF; ++i) if ($i ~ "^Suites:.*[ \t]" release "([ \t]|$)") found = 1
         if (!found) next
@@ -30,29 +32,31 @@ write_source() {
           print $i
         }
         exit }' "$file" >"$1.sources"
-    [[ ! -s $1.sources ]] || return 0
+    [[ ! -s $1.sources ]] || { printf '%s' "$1.sources" && return 0; }
   done
-  for file in "${lists[@]}"; do
+  for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
     [[ -r $file ]] || continue
-    sed -n -E "s/^(deb[[:space:]]+(\[[^]]*\][[:space:]]+)?[^[:space:]]+[[:space:]]+)$release[[:space:]].*/\1$release-backports main/p" \
-      "$file" | head -n 1 >"$1.list"
-    [[ ! -s $1.list ]] || return 0
+    awk -v release="$(release)" '$1 == "deb" {
+        for (i = 3; i <= NF; ++i) if ($i == release) {
+          line = $1
+          for (j = 2; j < i; ++j) line = line " " $j
+          print line, release "-backports", "main"
+          exit
+        } }' "$file" >"$1.list"
+    [[ ! -s $1.list ]] || { printf '%s' "$1.list" && return 0; }
   done
   return 1
 }
 
 # Fetches and unpacks into $1.
 fetch() {
-  local work=$1 source options
+  local work=$1 source suite options package
   mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/debs" "$work/root"
-  write_source "$work/backports" || return 1
-  source=$(ls "$work"/backports.*)
-  # Empty candidates were left by sources that do not fit.
-  for candidate in $source; do [[ ! -s $candidate ]] || source=$candidate; done
+  source=$(write_source "$work/backports") || return 1
+  suite=$(release)-backports
   options=(-q -o "Dir::Etc::sourcelist=$source" -o Dir::Etc::sourceparts=- -o "Dir::State::lists=$work/lists"
     -o "Dir::Cache=$work/cache" -o "APT::Sandbox::User=$(id -un)" -o Acquire::http::Timeout=20 -o Acquire::Retries=1)
   timeout 60 apt-get "${options[@]}" update || return 1
-  suite=$(. /etc/os-release && printf '%s' "$VERSION_CODENAME")-backports
   (cd -- "$work/debs" && timeout 90 apt-get "${options[@]}" download "mesa-vulkan-drivers/$suite" "libdrm2/$suite") ||
     return 1
   for package in "$work"/debs/*.deb; do dpkg -x "$package" "$work/root" || return 1; done
