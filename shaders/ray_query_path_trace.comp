@@ -30,7 +30,7 @@ vec3 trace_incoming(PathVertex vertex, BsdfSample scatter, RandomKey key) {
   float least_alpha = 0.0;
   for (uint bounce = 1u;; ++bounce) {
     vec3 direction = to_world(vertex.basis, scatter.direction);
-    if (dot(direction, vertex.geometric_normal) <= 0.0) break;
+    if (!(dot(direction, vertex.geometric_normal) > 0.0)) break;   // nor may what is no number reach a ray
     RayHit met = trace_ray(vertex.origin, direction, kFarAway, gl_RayFlagsNoneEXT);
     if (!met.found) {
       radiance += throughput * (environment_hit(direction, scatter) + sun_hit(direction, scatter));
