@@ -75,8 +75,8 @@ class StudyRunner {
 
   /// What earlier runs took is the best guess for what is left.
   void learn_times() {
-    for (size_t i = 0; i < plan_.cells.size(); ++i)
-      if (const auto record = folder_.load_cell(plan_.cells[i].key)) estimate_.add(plan_.cells[i].row, record->seconds);
+    for (const PlannedCell& cell : plan_.cells)
+      if (const auto record = folder_.load_cell(cell.key)) estimate_.add(cell.row, record->seconds);
   }
 
   /// `work` on every index that is not done, in order, by as many threads as there are jobs.
