@@ -12,7 +12,8 @@ std::vector<PortPart> accumulation_parts() {
       {"sum", Format::rgba32_sfloat, "rgb: sum of the frames; a: how many they are"},
       {"sum_error", Format::rgba32_sfloat, "rgb: what `sum` is short of; a: frames that saw a surface"},
       {"spread", Format::rgba32_sfloat,
-       "rgb: sum of the frames' squared standard errors or, without those, of their squared differences from the mean"},
+       "rgb: sum of the frames' squared standard errors or, without those, of their squared differences from the mean; "
+       "a: frames without one"},
       {"spread_error", Format::rgba32_sfloat, "rgb: what `spread` is short of"},
   };
 }
@@ -44,8 +45,10 @@ PassType make_accumulate() {
       "rgb: standard error of the mean, from the frames' own errors or, without those, from how the frames differ "
       "(Welford 1962), which needs two; 10000 where it is unknown; a: number of frames in the mean");
   error.bypass = Bypass{"", {kUnknownError, kUnknownError, kUnknownError, 0}};
-  Port own_error = image_input("standard_error", Format::rgba32_sfloat,
-                               "rgb: standard error of each frame's radiance, estimated within the frame");
+  Port own_error =
+      image_input("standard_error", Format::rgba32_sfloat,
+                  "rgb: standard error of each frame's radiance, estimated within the frame; 0 in all three where it "
+                  "is not known");
   own_error.optional = true;
   Port accumulation = bundle_output("accumulation", accumulation_parts(), ExtentRule::like,
                                     Access::compute_storage_write, "what the next frame goes on from");

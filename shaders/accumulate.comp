@@ -34,6 +34,7 @@ struct Accumulation {
   CompensatedSum spread;   // of squared errors: of the frames' own, or of the frames from their mean
   float frames;
   float surfaces;          // frames that saw a surface
+  float unknown;           // frames without an error of their own
 };
 
 bool view_moved() {
@@ -42,19 +43,24 @@ bool view_moved() {
 
 Accumulation read_past(ivec2 pixel) {
   if (view_moved())
-    return Accumulation(CompensatedSum(vec3(0.0), vec3(0.0)), CompensatedSum(vec3(0.0), vec3(0.0)), 0.0, 0.0);
+    return Accumulation(CompensatedSum(vec3(0.0), vec3(0.0)), CompensatedSum(vec3(0.0), vec3(0.0)), 0.0, 0.0, 0.0);
   vec4 sum = texelFetch(past_sum, pixel, 0);
   vec4 sum_error = texelFetch(past_sum_error, pixel, 0);
+  vec4 spread = texelFetch(past_spread, pixel, 0);
   return Accumulation(CompensatedSum(sum.rgb, sum_error.rgb),
-                      CompensatedSum(texelFetch(past_spread, pixel, 0).rgb, texelFetch(past_spread_error, pixel, 0).rgb),
-                      sum.a, sum_error.a);
+                      CompensatedSum(spread.rgb, texelFetch(past_spread_error, pixel, 0).rgb), sum.a, sum_error.a,
+                      spread.a);
 }
 
 vec3 mean_of(Accumulation a) { return a.frames > 0.0 ? value_of(a.sum) / a.frames : vec3(0.0); }
 
-// B. P. Welford, "Note on a method for calculating corrected sums of squares and products", Technometrics 4(3), 1962.
+// Of a single path nobody knows an error, and 0 is given.
+bool has_own_error(vec3 own_error) { return standard_error_bound && own_error != vec3(0.0); }
+
+// Without an error of its own: B. P. Welford, "Note on a method for calculating corrected sums of squares and
+// products", Technometrics 4(3), 1962. The product's mean is the variance of a frame, whatever their number.
 vec3 squared_error(Accumulation before, Accumulation after, vec3 value, vec3 own_error) {
-  if (standard_error_bound) return own_error * own_error;
+  if (has_own_error(own_error)) return own_error * own_error;
   if (before.frames <= 0.0) return vec3(0.0);
   return (value - mean_of(before)) * (value - mean_of(after));
 }
@@ -65,14 +71,17 @@ void add_frame(inout Accumulation a, vec4 value, vec3 own_error) {
   add(after.sum, value.rgb);
   after.frames += 1.0;
   after.surfaces += value.a > 0.0 ? 1.0 : 0.0;
+  after.unknown += has_own_error(own_error) ? 0.0 : 1.0;
   add(after.spread, squared_error(a, after, value.rgb, own_error));
   if (is_finite(value_of(after.sum)) && is_finite(value_of(after.spread))) a = after;
 }
 
 vec3 error_of_mean(Accumulation a) {
   vec3 spread = max(value_of(a.spread), vec3(0.0));
-  if (standard_error_bound) return a.frames > 0.0 ? sqrt(spread) / a.frames : vec3(kUnknownError);
-  return a.frames > 1.0 ? sqrt(spread / (a.frames - 1.0) / a.frames) : vec3(kUnknownError);
+  if (a.frames <= 0.0 || (a.frames == 1.0 && !standard_error_bound)) return vec3(kUnknownError);
+  // Where no frame has an error, the first of them adds nothing to the spread.
+  float terms = a.frames > 1.0 && a.unknown == a.frames ? a.frames - 1.0 : a.frames;
+  return sqrt(spread / terms / a.frames);
 }
 
 void main() {
@@ -82,7 +91,7 @@ void main() {
   add_frame(a, texelFetch(radiance, pixel, 0), standard_error_bound ? texelFetch(standard_error, pixel, 0).rgb : vec3(0.0));
   imageStore(out_accumulation_sum, pixel, vec4(a.sum.sum, a.frames));
   imageStore(out_accumulation_sum_error, pixel, vec4(a.sum.error, a.surfaces));
-  imageStore(out_accumulation_spread, pixel, vec4(a.spread.sum, 0.0));
+  imageStore(out_accumulation_spread, pixel, vec4(a.spread.sum, a.unknown));
   imageStore(out_accumulation_spread_error, pixel, vec4(a.spread.error, 0.0));
   imageStore(out_radiance, pixel, vec4(mean_of(a), a.surfaces));
   if (standard_error_wanted) imageStore(out_standard_error, pixel, vec4(min(error_of_mean(a), kLargest), a.frames));

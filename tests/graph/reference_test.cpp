@@ -29,7 +29,13 @@ std::vector<std::string> culled(const Graph& graph) {
 TEST(ReferenceGraph, RunsWithoutHazard) {
   const Plan plan = compile(graph_of_file("reference.json", {}, true));
   EXPECT_EQ(verify(plan).violations, std::vector<std::string>{});
-  EXPECT_TRUE(plan.graph.culled.empty());
+  EXPECT_EQ(culled(plan.graph), std::vector<std::string>{"voxelize"});
+  LinkOptions voxels;
+  voxels.type_sets = {{"--geometry", "reference_path_trace", "geometry", "voxels"}};
+  const Plan through = compile(graph_of_file("reference.json", voxels, true));
+  EXPECT_EQ(verify(through).violations, std::vector<std::string>{});
+  EXPECT_TRUE(through.graph.culled.empty());
+  EXPECT_EQ(toy::source(through.graph, "trace", "voxels", "albedo"), "voxelize.voxels.albedo");
 }
 
 TEST(ReferenceGraph, TakesThePlaceOfAnyTracerAndCullsItsVoxels) {

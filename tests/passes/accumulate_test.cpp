@@ -126,6 +126,25 @@ TEST_F(Accumulate, TheFramesOwnErrorsCountFromTheFirstOn) {
   }
 }
 
+/// As those of a single path, of which nobody knows the error.
+TEST_F(Accumulate, WhereTheFramesErrorsAreNotKnownTheirSpreadCounts) {
+  const std::vector<Images> without = accumulate(30, heavy);
+  const std::vector<Images> zeros = accumulate(30, heavy, [](uint32_t, uint32_t, uint32_t) { return 0.0f; });
+  for (const uint32_t frame : {1u, 2u, 29u})
+    EXPECT_EQ(zeros[frame].at("error").texels, without[frame].at("error").texels) << frame;
+  EXPECT_EQ(zeros[0].at("error").at(4, 4, 0, 1), 0);
+  const Signal every_third = [](uint32_t frame, uint32_t, uint32_t) { return frame % 3 == 0 ? 0.5f : 0.0f; };
+  const Signal noise = [](uint32_t frame, uint32_t pixel, uint32_t channel) {
+    std::mt19937 random(frame * 7919 + pixel * 31 + channel);
+    return std::normal_distribution<float>(3, 0.5f)(random);
+  };
+  const image::HostImage error = accumulate(60, noise, every_third).back().at("error");
+  double squares = 0;
+  for (uint32_t i = 0; i < kPixels * 3; ++i)
+    squares += std::pow(error.at(i / 3 % kWidth, i / 3 / kWidth, 0, i % 3), 2) / (kPixels * 3);
+  EXPECT_NEAR(std::sqrt(squares), 0.5 / std::sqrt(60), 0.03 * 0.5 / std::sqrt(60)) << "known and unknown errors mix";
+}
+
 TEST_F(Accumulate, FramesWithoutNumbersAreLeftOut) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
