@@ -26,6 +26,7 @@ struct RenderOptions {
   Range frames;
   uint32_t seed = 0;
   double frames_per_second = 30;
+  std::optional<double> time;
   std::string dump_format = "exr";
   uint32_t checkpoint_every = 0;
   bool resume = false;
@@ -50,6 +51,7 @@ run::RenderRequest make_request(const RenderOptions& options, const CommandConte
   request.first_frame = options.frames.first;
   request.last_frame = options.frames.last;
   request.frames_per_second = options.frames_per_second;
+  request.frozen_time = options.time;
   request.checkpoint_every = options.checkpoint_every;
   request.resume = options.resume;
   request.out = options.out.empty() ? std::filesystem::path("out") / options.graph.stem() : options.out;
@@ -124,6 +126,10 @@ void add_render_command(Command& program, const CommandContext& context, const s
       .group("Scene and frames");
   command.option("--fps", options->frames_per_second, "Frames a second of scene time, for animation")
       .range(1e-6, kMostFramesPerSecond)
+      .group("Scene and frames");
+  command.option("--time", options->time, "Hold the scene and the camera still as they are at this time, in seconds")
+      .placeholder("SECONDS")
+      .range(0, 1e6)
       .group("Scene and frames");
   command.option("--seed", options->seed, "Seed of all random numbers").group("Scene and frames");
   options->changes.add_to(command);

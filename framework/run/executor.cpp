@@ -33,6 +33,7 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
               .view = plan_.graph.view,
               .seed = options.seed,
               .frames_per_second = options.frames_per_second,
+              .frozen_time = options.frozen_time,
               .general = plan_.graph.general,
               .ray_queries = needs_ray_queries(plan_.graph)}),
       memo_(options.memo ? options.memo : std::make_shared<SceneMemo>()),

@@ -28,8 +28,9 @@ struct ExecutorOptions {
   std::string camera;                                           ///< empty: the scene's first
   std::optional<scene::CameraPath> camera_path = std::nullopt;  ///< moves the camera instead of what the scene says
   uint32_t seed = 0;
-  double frames_per_second = 30;  ///< animation time of frame f is f / frames_per_second
-  bool share_memory = true;       ///< values that are not live at the same time share memory
+  double frames_per_second = 30;                     ///< animation time of frame f is f / frames_per_second
+  std::optional<double> frozen_time = std::nullopt;  ///< every frame shows the scene at this time [s]
+  bool share_memory = true;                          ///< values that are not live at the same time share memory
   /// What host passes derive from the scene, to be shared by executors on the same one; empty: the executor's own.
   std::shared_ptr<SceneMemo> memo = nullptr;
 };

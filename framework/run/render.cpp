@@ -51,6 +51,7 @@ Json run_record(const Run& run, const Executor& executor, const RunProgress& pro
   record["frames"] = {{"first", request.first_frame}, {"last", request.last_frame}};
   record["resumed_at"] = progress.resumed_at;
   record["frames_per_second"] = request.frames_per_second;
+  record["frozen_time"] = request.frozen_time ? Json(*request.frozen_time) : Json();
   record["dump_format"] = to_string(request.dump_format);
   record["device"] = device_record(run.device.info());
   record["validation"] = run.device.validating();
@@ -79,6 +80,7 @@ Json identity_of(const Run& run, const Plan& plan) {
           {"camera path", run.path ? hex(hash_text(camera_path.dump())) : "none"},
           {"first frame", std::to_string(request.first_frame)},
           {"frames a second", Json(request.frames_per_second).dump()},
+          {"frozen time", request.frozen_time ? Json(*request.frozen_time).dump() : "none"},
           {"dump format", to_string(request.dump_format)},
           {"device", device.name + ", " + device.driver_info + ", " + device.uuid_text()},
           {"plug-ins", plugins.dump()},
@@ -174,6 +176,7 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
                      .camera_path = path,
                      .seed = request.seed,
                      .frames_per_second = request.frames_per_second,
+                     .frozen_time = request.frozen_time,
                      .share_memory = request.share_memory});
   if (checkpoint) executor.restore(checkpoint->state);
   RunFolder folder = open_folder(request, checkpoint);

@@ -27,8 +27,9 @@ struct RenderRequest {
   uint32_t first_frame = 0;  ///< inclusive
   uint32_t last_frame = 0;   ///< inclusive
   double frames_per_second = 30;
-  std::filesystem::path out;  ///< run folder, made if missing
-  bool share_memory = true;   ///< values that are not live at the same time share memory
+  std::optional<double> frozen_time;  ///< every frame shows the scene at this time [s]
+  std::filesystem::path out;          ///< run folder, made if missing
+  bool share_memory = true;           ///< values that are not live at the same time share memory
   DumpFormat dump_format = DumpFormat::exr;
   /// Frames between two checkpoints; the last frame gets one as well. 0: none.
   uint32_t checkpoint_every = 0;

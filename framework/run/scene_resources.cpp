@@ -243,7 +243,7 @@ uint32_t SceneResources::fill_light_block(LightBlock& block, const scene::Pose& 
 }
 
 FrameConditions SceneResources::prepare(uint32_t frame) {
-  const double time = frame / options_.frames_per_second;
+  const double time = options_.frozen_time.value_or(frame / options_.frames_per_second);
   pose_ = scene::pose(scene_, time);
   moving_.update(pose_.dynamic_vertices);
   bindings_.moved = moving_.moved();

@@ -28,8 +28,9 @@ struct SceneResourceOptions {
   Extent3 view;
   uint32_t seed = 0;
   double frames_per_second = 30;
-  bool general = false;      ///< shaders see every feature, whatever the scene has
-  bool ray_queries = false;  ///< some pass asks what rays meet: builds acceleration structures
+  std::optional<double> frozen_time = std::nullopt;  ///< every frame shows the scene at this time [s]
+  bool general = false;                              ///< shaders see every feature, whatever the scene has
+  bool ray_queries = false;                          ///< some pass asks what rays meet: builds acceleration structures
 };
 
 /// The scene on the device: uploaded once, but for what moves and the blocks of the frame, which are staged by

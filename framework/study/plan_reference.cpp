@@ -1,5 +1,7 @@
 #include "framework/study/plan_reference.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "framework/base/file.hpp"
@@ -24,6 +26,24 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 std::string value_text(const ParamValue& value) {
   const auto* text = std::get_if<std::string>(&value);
   return text != nullptr ? *text : to_string(value);
+}
+
+/// What light is, rather than how well it is computed. A reference of another model would count the difference as
+/// error.
+constexpr std::array<const char*, 2> kModelParams = {"bounces", "ward"};
+
+/// A param of the graph, or of the one pass that has it.
+std::optional<std::string> model_param(const Graph& graph, const std::string& name) {
+  for (const auto& [param, value] : graph.params)
+    if (param == name) return value_text(value);
+  std::optional<std::string> found;
+  for (const GraphPass& pass : graph.passes) {
+    const ParamSet::Entry* entry = pass.params.find(name);
+    if (entry == nullptr) continue;
+    if (found) return std::nullopt;
+    found = value_text(entry->value);
+  }
+  return found;
 }
 
 /// A param as the row's graph has it: "bounces" of the graph, or "trace.bounces" of a pass.
@@ -56,6 +76,10 @@ void ReferencePlanner::run() {
   if (spec.kind == ReferenceSpec::Kind::graph) {
     other = parse_graph(read_text_file(spec.graph), spec.graph.string(), diagnostics_);
     if (!other || diagnostics_.has_errors()) return;
+    for (const char* name : kModelParams)
+      if (std::any_of(other->params.begin(), other->params.end(),
+                      [&](const auto& param) { return param.name == name; }))
+        model_params_.emplace_back(name);
   }
   for (PlannedRow& row : plan_.rows) {
     if (!row.plan) continue;
@@ -95,6 +119,17 @@ PlannedReference ReferencePlanner::image(const PlannedRow& row) const {
   return reference;
 }
 
+std::optional<std::string> ReferencePlanner::shared_by_rows(const std::string& param) const {
+  std::optional<std::string> shared;
+  for (const PlannedRow& row : plan_.rows) {
+    if (!row.plan) continue;
+    const std::optional<std::string> value = model_param(row.plan->graph, param);
+    if (!value || (shared && *shared != *value)) return std::nullopt;
+    shared = value;
+  }
+  return shared;
+}
+
 Changes ReferencePlanner::changes_for(const PlannedRow& row) const {
   const ReferenceSpec& spec = plan_.spec.reference;
   const Graph& graph = row.plan->graph;
@@ -104,6 +139,12 @@ Changes ReferencePlanner::changes_for(const PlannedRow& row) const {
   changes = combine(changes, spec.changes);
   for (const std::string& name : spec.match)
     if (auto value = param_of(graph, name)) changes.sets.emplace_back(name, *value);
+  for (const std::string& name : model_params_) {
+    const bool said =
+        std::any_of(changes.sets.begin(), changes.sets.end(), [&](const auto& set) { return set.first == name; });
+    const auto value = said ? std::nullopt : shared_by_rows(name);
+    if (value) changes.sets.emplace_back(name, *value);
+  }
   changes.size = Size{graph.view.width, graph.view.height};
   // Light is traced at full size for a reference, unless it says otherwise.
   if (spec.kind != ReferenceSpec::Kind::baseline)

@@ -23,6 +23,8 @@ class ReferencePlanner {
   std::optional<PlannedReference> rendered(const PlannedRow& row, const GraphSpec& graph, const std::string& what);
   /// What the reference does to its graph, for this row.
   Changes changes_for(const PlannedRow& row) const;
+  /// A param of the reference's graph that says what light is, as all rows have it; nothing where they differ.
+  std::optional<std::string> shared_by_rows(const std::string& param) const;
   std::string key_of(const PlannedReference& reference) const;
   void add(PlannedRow& row, PlannedReference reference);
 
@@ -32,6 +34,7 @@ class ReferencePlanner {
   const gpu::DeviceInfo& device_;
   Diagnostics& diagnostics_;
   std::map<std::string, size_t> found_;
+  std::vector<std::string> model_params_;  ///< of the reference's graph
 };
 
 }  // namespace lightloom::study

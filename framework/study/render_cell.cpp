@@ -59,6 +59,7 @@ Rendering render_job(gpu::Device& device, const RenderJob& job, const FrameCallb
                           .camera = job.camera,
                           .seed = job.seed,
                           .frames_per_second = job.frames_per_second,
+                          .frozen_time = job.frozen_time,
                           .memo = job.memo});
   Rendering rendering;
   Clock::time_point before = start;  // the first frame's wall time has what is set up for it

@@ -27,7 +27,8 @@ struct RenderJob {
   uint32_t frames = 1;
   uint32_t kept = 1;
   double frames_per_second = 30;
-  std::string output = "radiance";  ///< of the graph, linear radiance
+  std::optional<double> frozen_time = std::nullopt;  ///< every frame shows the scene at this time [s]
+  std::string output = "radiance";                   ///< of the graph, linear radiance
   run::ShaderFolders shaders;
 };
 

@@ -19,7 +19,8 @@ struct Schedule {
   uint32_t first = 0;
   uint32_t frames = 1;  ///< of one run
   uint32_t kept = 1;
-  uint32_t runs = 1;  ///< with a seed each
+  uint32_t runs = 1;    ///< with a seed each
+  bool frozen = false;  ///< the scene stands still as it is in the judged frame
 };
 
 Schedule schedule_for(const StudyPlan& plan, const PlannedReference& reference, uint32_t judged) {
@@ -28,12 +29,11 @@ Schedule schedule_for(const StudyPlan& plan, const PlannedReference& reference, 
   const uint32_t begin = looks_back ? plan.spec.first_frame : judged;
   const uint32_t lead = judged - begin;
   if (!reference.average) {
-    // What is not a mean gathers in the graph itself: in a moving scene up to the judged frame, else from there on.
-    const uint32_t first = moves ? judged + 1 - std::min(judged + 1, reference.frames) : judged;
-    return {first, moves ? judged + 1 - first : reference.frames, 1, 1};
+    // What is not a mean gathers in the graph itself, from the judged frame on, while nothing moves.
+    return {judged, reference.frames, 1, 1, true};
   }
-  if (moves) return {begin, lead + 1, 1, reference.frames};
-  return {begin, lead + reference.frames, reference.frames, 1};
+  if (moves) return {begin, lead + 1, 1, reference.frames, false};
+  return {begin, lead + reference.frames, reference.frames, 1, false};
 }
 
 class ReferenceRenderer {
@@ -64,7 +64,9 @@ class ReferenceRenderer {
     MeanImage mean;
     std::optional<image::HostImage> standard_error;
     for (uint32_t run = 0; run < schedule.runs; ++run) {
-      Rendering rendering = render_job(device_, job(schedule, run), on_frame_);
+      RenderJob rendered = job(schedule, run);
+      if (schedule.frozen) rendered.frozen_time = judged / rendered.frames_per_second;
+      Rendering rendering = render_job(device_, rendered, on_frame_);
       for (const image::HostImage& radiance : rendering.radiance) mean.add(radiance);
       standard_error = std::move(rendering.standard_error);
     }

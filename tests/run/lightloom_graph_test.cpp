@@ -56,6 +56,20 @@ TEST_F(LightloomGraph, GivesTheSameBitsWhetherValuesShareMemoryOrNot) {
   }
 }
 
+TEST_F(LightloomGraph, ASceneHeldStillLooksAsItDidAtThatTime) {
+  GraphRunOptions options;
+  options.frames = 4;
+  options.link.captures = {"gather.surface.position", "voxelize_dynamic.voxels.albedo"};
+  const std::vector<Images> moving = run_graph(small_graph("lightloom.json", 0.5), atrium(), options);
+  options.frozen_time = 3 / 30.0;
+  const std::vector<Images> still = run_graph(small_graph("lightloom.json", 0.5), atrium(), options);
+  for (const auto& [name, image] : moving[3]) {
+    if (name == "radiance" || name == "image") continue;
+    EXPECT_FALSE(image.texels == moving[0].at(name).texels) << name << " does not move, so this says nothing";
+    for (const Images& frame : still) EXPECT_TRUE(frame.at(name).texels == image.texels) << name;
+  }
+}
+
 using Colors = std::vector<double>;
 
 /// Red, green and blue, compressed to [0, 1): one lamp or one spark must not outweigh the picture.

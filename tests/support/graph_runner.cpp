@@ -67,6 +67,7 @@ void visit_frames(std::string_view graph_json, const scene::Scene& scene, const 
                           .camera = options.camera,
                           .seed = options.seed,
                           .frames_per_second = 30,
+                          .frozen_time = options.frozen_time,
                           .share_memory = options.share_memory});
   for (uint32_t frame = 0; frame < options.frames; ++frame) {
     run::FrameResult result = executor.run_frame(frame);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +19,9 @@ struct GraphRunOptions {
   uint32_t frames = 1;  ///< rendered one after another from frame 0
   uint32_t seed = 0;
   bool share_memory = true;
-  std::string camera;                ///< empty: the scene's first
-  std::vector<std::string> capture;  ///< globs over "pass.port" / "pass.port.part"
+  std::optional<double> frozen_time;  ///< [s]
+  std::string camera;                 ///< empty: the scene's first
+  std::vector<std::string> capture;   ///< globs over "pass.port" / "pass.port.part"
   LinkOptions link;
   /// Pass types on top of the built-in ones, e.g. one that fills an image with a pattern by a shader in
   /// tests/passes/shaders, which is searched after shaders/.
