@@ -37,6 +37,12 @@ MetricInfo metric_info(std::string_view name) {
   return MetricInfo{std::string(name), std::string(name), "", false, false, ""};
 }
 
+size_t metric_rank(std::string_view name) {
+  const auto& metrics = known_metrics();
+  const auto found = std::find_if(metrics.begin(), metrics.end(), [&](const MetricInfo& m) { return m.name == name; });
+  return static_cast<size_t>(found - metrics.begin());
+}
+
 bool is_better(const MetricInfo& metric, double a, double b) {
   if (std::isnan(a)) return false;
   if (std::isnan(b)) return true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,9 @@ struct MetricInfo {
 
 /// Of an unknown name: label = name, lower is better.
 [[nodiscard]] MetricInfo metric_info(std::string_view name);
+
+/// Place of a metric in the order in which a reader wants them; unknown ones come last.
+[[nodiscard]] size_t metric_rank(std::string_view name);
 
 /// True if the value `a` of the metric is strictly better than `b`. NaN is worse than any number.
 [[nodiscard]] bool is_better(const MetricInfo& metric, double a, double b);

@@ -149,6 +149,8 @@ Json metrics_json(const StudyResults& results) {
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
   }
+  std::stable_sort(names.begin() + 1, names.end(),
+                   [](const auto& a, const auto& b) { return metric_rank(a) < metric_rank(b); });
   Json list = Json::array();
   for (const auto& name : names) {
     if (name.empty()) continue;

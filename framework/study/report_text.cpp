@@ -175,7 +175,7 @@ std::string format_number(double value) {
   auto format = std::chars_format::fixed;
   int digits = size >= 1 ? std::max(0, 2 - static_cast<int>(std::floor(std::log10(size))))
                          : 2 - static_cast<int>(std::floor(std::log10(size)));
-  if (size >= 1e7 || size < 1e-3) {
+  if (size >= 1e7 || size < 1e-4) {
     format = std::chars_format::scientific;
     digits = 1;
   }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/base/atomic_file.hpp"
+#include "framework/study/report.hpp"
 
 namespace lightloom::study {
 namespace {
@@ -137,6 +138,7 @@ void write_results(const StudyResults& results, const std::vector<CellResult>& c
   write_file_atomically(folder / "results.csv", results_csv(results, times));
   write_file_atomically(folder / "cells.csv", cells_csv(results, cells, times));
   write_file_atomically(folder / "results.json", results_json(results, times));
+  if (times == Times::with) write_file_atomically(folder / "report.html", make_report(results, folder));
 }
 
 }  // namespace lightloom::study

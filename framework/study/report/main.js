@@ -33,6 +33,7 @@ start_section("results", data.rows.length > 0, (body) => new ResultsTable(body))
 start_section("pictures", data.rows.some((row) => row.picture !== null) || data.views.some((view) => view.reference !== null), (body) => {
   new Compare(body);
   new PictureGrid(body);
+  set_zoom(1, 0.5, 0.5);
 });
 start_section("times", measured.some((row) => row.passes.length > 0), (body) => new PassBars(body));
 start_section("pareto", measured.length > 0 && main_metric !== null, (body) => new ParetoPlot(body));

@@ -39,7 +39,7 @@ function place_labels(points, width, height) {
   const taken = points.map((point) => ({ x: point.x - 7, y: point.y - 7, width: 14, height: 14 }));
   for (const point of order) {
     const text = shortened(point.row.setting, 30);
-    const size = { width: text.length * 6.3 + 4, height: 15 };
+    const size = { width: text.length * 6.6 + 6, height: 15 };
     const spots = [[11, -8], [-11 - size.width, -8], [-size.width / 2, -25], [-size.width / 2, 11], [9, 6], [-9 - size.width, 6], [9, -22], [-9 - size.width, -22]];
     const boxes = spots.map(([dx, dy]) => ({ x: point.x + dx, y: point.y + dy, ...size }));
     const free = boxes.find((box) => box.x >= 0 && box.x + box.width <= width && box.y >= 0 && box.y + box.height <= height && !taken.some((other) => boxes_meet(box, other)));

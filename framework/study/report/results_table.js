@@ -83,12 +83,12 @@ class ResultsTable {
       event.stopPropagation();
       this.toggle(row.id);
     } });
-    const choose = el("button", { type: "button", class: "choose", "aria-pressed": null, "aria-current": this.is_selected(row) ? "true" : null, onclick: (event) => {
+    const choose = el("button", { type: "button", class: "choose", "aria-current": this.is_selected(row) ? "true" : null, onclick: (event) => {
       event.stopPropagation();
       this.select(row, true);
     } }, row.setting);
     const badges = [row.baseline ? el("span", { class: "badge" }, "baseline") : null, row.pareto && !row.failed ? el("span", { class: "badge front", title: "no other setting here is both faster and better" }, "◆ front") : null, row.failed ? el("span", { class: "badge failed" }, "✕ failed") : null];
-    return el("span", null, toggle, choose, badges);
+    return el("span", null, toggle, choose, el("span", { class: "badges" }, badges));
   }
 
   is_selected(row) {
