@@ -117,14 +117,4 @@ RenderedReference render_reference(gpu::Device& device, const StudyPlan& plan, c
   return result;
 }
 
-uint32_t reference_frames(const StudyPlan& plan, const PlannedReference& reference) {
-  uint32_t frames = 0;
-  if (reference.plan)
-    for (const uint32_t judged : plan.judged_frames) {
-      const Schedule schedule = schedule_for(plan, reference, judged);
-      frames += schedule.runs * schedule.frames;
-    }
-  return frames;
-}
-
 }  // namespace lightloom::study

@@ -14,13 +14,11 @@ struct RenderedReference {
 
 /// Renders, or reads, a reference for each judged frame.
 ///
-/// In a scene that stands still the frames of a reference follow one another from the judged frame on, after the
-/// study's own frames if its graph looks back. In one that moves, the mean is over renderings of the judged frame with
-/// seeds `seed`, `seed + 1`, …, and what is not a mean is the last of the frames that end there.
+/// What is not a mean is the last of frames that follow one another from the judged frame on, while the scene stands
+/// still as it is in that frame. A mean is over such frames too in a scene that does not move, after the study's own
+/// frames if the graph looks back; in one that moves it is over renderings of the judged frame with seeds `seed`,
+/// `seed + 1`, …, each with the study's frames before it if the graph looks back.
 [[nodiscard]] RenderedReference render_reference(gpu::Device& device, const StudyPlan& plan,
                                                  const PlannedReference& reference, const FrameCallback& on_frame = {});
-
-/// So many frames does render_reference render; 0 for an image.
-[[nodiscard]] uint32_t reference_frames(const StudyPlan& plan, const PlannedReference& reference);
 
 }  // namespace lightloom::study
