@@ -7,8 +7,8 @@
 namespace lightloom::study {
 namespace {
 
-const std::array<MetricInfo, 14>& known_metrics() {
-  static const std::array<MetricInfo, 14> kMetrics = {{
+const std::array<MetricInfo, 15>& known_metrics() {
+  static const std::array<MetricInfo, 15> kMetrics = {{
       {"flip", "FLIP", "", false, false, "Difference that a person sees when flipping between the pictures, 0 to 1."},
       {"relmse", "relMSE", "", false, false, "Mean squared error relative to the reference's squared radiance."},
       {"mse", "MSE", "", false, false, "Mean squared error of linear radiance."},
@@ -17,8 +17,9 @@ const std::array<MetricInfo, 14>& known_metrics() {
       {"smape", "SMAPE", "", false, false, "Symmetric mean absolute error, 0 to 2: fireflies hardly move it."},
       {"psnr", "PSNR", "dB", true, false, "Peak signal-to-noise ratio, peak 1; infinite for equal pictures."},
       {"ssim", "SSIM", "", true, false, "Structural similarity of luminance, 1 for equal pictures."},
-      {"mean_error", "mean error", "", false, true, "Mean of picture minus reference: negative where it is too dark."},
+      {"mean_error", "mean error", "", false, false, "Mean absolute error of linear radiance."},
       {"max_error", "max error", "", false, false, "Largest absolute error of a channel."},
+      {"bias", "bias", "", false, true, "Mean of picture minus reference: negative where it is too dark."},
       {"fireflies", "fireflies", "px", false, false, "Pixels that are far brighter than the reference."},
       {"non_finite", "NaN or Inf", "px", false, false, "Pixels that hold no number."},
       {"bias_squared", "bias²", "", false, false,

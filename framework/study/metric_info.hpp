@@ -13,7 +13,7 @@ struct MetricInfo {
   std::string label;  ///< "FLIP"
   std::string unit;   ///< "dB"; "" for a pure number
   bool higher_is_better = false;
-  bool nearest_zero_is_best = false;  ///< signed: mean_error
+  bool nearest_zero_is_best = false;  ///< signed: bias
   std::string doc;                    ///< one sentence
 };
 

@@ -128,7 +128,7 @@ TEST(ReportText, NumbersHaveThreeDigits) {
 TEST(MetricInfo, KnowsWhatIsBetter) {
   EXPECT_TRUE(is_better(metric_info("flip"), 0.1, 0.2));
   EXPECT_TRUE(is_better(metric_info("psnr"), 31, 30));
-  EXPECT_TRUE(is_better(metric_info("mean_error"), -0.01, 0.02));
+  EXPECT_TRUE(is_better(metric_info("bias"), -0.01, 0.02));
   EXPECT_FALSE(is_better(metric_info("ssim"), std::nan(""), 0.2));
   EXPECT_EQ(metric_info("own").label, "own");
 }

@@ -164,7 +164,7 @@ void add_metrics(Row& row, double error, double psnr) {
                  {"rmse", around(error * 0.8, 0.001)},
                  {"psnr", around(psnr, 0.12)},
                  {"ssim", around(1 - error * 1.4, 0.002)},
-                 {"mean_error", around(0.002 - error * 0.01, 0.0011)},
+                 {"bias", around(0.002 - error * 0.01, 0.0011)},
                  {"fireflies", around(std::floor(error * 300), 3)}};
   row.bias_squared = around(error * error * 0.3, 0.0002);
   row.variance = around(error * error * 0.5, 0.0004);

@@ -102,7 +102,7 @@ class Compare {
 }
 
 function magma_key() {
-  return el("span", { class: "magma" }, "no visible difference", el("i"), "strongest (FLIP, the same scale everywhere)");
+  return el("span", { class: "magma" }, "FLIP 0", el("i"), "1, the same scale everywhere");
 }
 
 function zoom_buttons() {
