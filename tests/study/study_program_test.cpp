@@ -152,7 +152,7 @@ TEST_F(StudyProgram, AnAblationNeedsNoFile) {
   EXPECT_THAT(log(), ::testing::HasSubstr("without denoise_box_x and denoise_box_y"));
   ASSERT_EQ(run_program(dry), 0) << log();
   EXPECT_THAT(log(), ::testing::HasSubstr("4 cells of 2 frames, 0 to do"));
-  for (const char* file : {"results.csv", "cells.csv", "results.json"})
+  for (const char* file : {"results.csv", "cells.csv", "results.json", "report.html"})
     EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
 }
 
