@@ -8,7 +8,7 @@ namespace lightloom::study {
 namespace {
 
 const std::array<MetricInfo, 15>& known_metrics() {
-  static const std::array<MetricInfo, 15> kMetrics = {{
+  static const std::array<MetricInfo, 15> metrics = {{
       {"flip", "FLIP", "", false, false, "Difference that a person sees when flipping between the pictures, 0 to 1."},
       {"relmse", "relMSE", "", false, false, "Mean squared error relative to the reference's squared radiance."},
       {"mse", "MSE", "", false, false, "Mean squared error of linear radiance."},
@@ -26,7 +26,7 @@ const std::array<MetricInfo, 15>& known_metrics() {
        "Squared error that no number of seeds averages away, corrected for the seeds' noise: it may fall below 0."},
       {"variance", "variance", "", false, false, "Mean over pixels of the variance over seeds."},
   }};
-  return kMetrics;
+  return metrics;
 }
 
 }  // namespace

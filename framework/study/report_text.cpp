@@ -107,7 +107,9 @@ std::string noise_words(const std::vector<const Row*>& rows, const MetricInfo& m
 }
 
 /// Of a frame [ms], as the table gives it.
-double time_of(const Row& row) { return row.frame_ms.count > 0 ? row.frame_ms.mean : row.frame.median; }
+double time_of(const Row& row) {
+  return row.frame_ms.count > 0 ? row.frame_ms.mean : row.frame.median;
+}
 
 std::string view_words(const StudyResults& results, const ViewName& view, const MetricInfo& metric, bool named) {
   const auto rows = rows_of(results, view);
@@ -115,8 +117,8 @@ std::string view_words(const StudyResults& results, const ViewName& view, const 
   std::string words = named ? "In " + view_name(view) + " " : "";
   const Row* best = best_by(rows, metric);
   if (best != nullptr) words += best_words(*best, metric) + "; ";
-  const Row* fastest = *std::min_element(rows.begin(), rows.end(),
-                                         [](const Row* a, const Row* b) { return time_of(*a) < time_of(*b); });
+  const Row* fastest =
+      *std::min_element(rows.begin(), rows.end(), [](const Row* a, const Row* b) { return time_of(*a) < time_of(*b); });
   words += strong(fastest->setting) + " is fastest, " + format_number(time_of(*fastest)) + " ms a frame";
   return words + noise_words(rows, metric) + ".";
 }
