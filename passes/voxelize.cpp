@@ -22,8 +22,11 @@ Port voxels_output() {
 }
 
 Port owner_scratch() {
-  Port port = scratch_image("owner", {"", Format::r32_uint, "index of the owning triangle + 1; 0: empty"},
-                            ExtentRule::grid, Access::compute_storage_read_write, "who owns each voxel");
+  Port port = scratch_image(
+      "owner",
+      {"", Format::r32_uint,
+       "index of the owning triangle + 1, with `priority` emissive the highest bit set where it emits; 0: empty"},
+      ExtentRule::grid, Access::compute_storage_read_write, "who owns each voxel");
   port.dimension = Dimension::d3;
   port.persistent = true;
   return port;
@@ -117,8 +120,9 @@ PassType make_voxelize() {
       "Voxelizes triangles into the three RGBA8 images of the paper (section 2.1). A triangle takes the voxels that "
       "`coverage` says: with `supercover` all whose closed box it touches (triangle-box test of Schwarz and Seidel "
       "2010); with `raster`, the paper's way, the hardware draws it along its dominant axis and it takes one voxel for "
-      "each column whose centre line meets it, so thin and slanted things have holes. The triangle that is last in "
-      "draw order owns a voxel, by one atomic maximum, and all attributes come from its point nearest to the voxel's "
+      "each column whose centre line meets it, so thin and slanted things have holes. The triangle that `priority` "
+      "says "
+      "owns a voxel, by one atomic maximum, and all attributes come from its point nearest to the voxel's "
       "centre, so a voxel is consistent and every run gives the same bits. Normals are those of the front face. A "
       "triangle without area takes nothing.";
   type.ports = {voxels_output(), owner_scratch()};
@@ -132,6 +136,15 @@ PassType make_voxelize() {
        {"raster", "supercover"},
        "",
        "which voxels a triangle takes"},
+      {"priority",
+       ParamType::choice,
+       std::string("draw_order"),
+       {},
+       {},
+       {"draw_order", "emissive"},
+       "",
+       "which of its triangles owns a voxel: the last in draw order (the paper's), or the last of those whose material "
+       "emits where there is one, so that a lamp less than a voxel below a ceiling is not lost"},
       {"resolution",
        ParamType::integer,
        int64_t{128},

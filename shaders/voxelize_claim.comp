@@ -1,9 +1,11 @@
-// Second part of `voxelize` with coverage `supercover`: every triangle claims the voxels it touches; the one that is
-// last in draw order keeps a voxel. One atomic maximum a voxel, no compare-and-swap loop, so the result does not depend on which thread is first.
+// Second part of `voxelize` with coverage `supercover`: every triangle claims the voxels it touches; the one with the
+// greatest key keeps a voxel. One atomic maximum a voxel, no compare-and-swap loop, so the result does not depend on
+// which thread is first.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/supercover.glsl"
+#include "lib/voxel_owner.glsl"
 #include "lib/voxel_sample.glsl"
 
 layout(local_size_x = 64) in;
@@ -23,7 +25,7 @@ shared uint large_triangles[gl_WorkGroupSize.x];
 
 void claim(uint index, Triangle t, Corners in_grid, ivec3 voxel) {
   if (alpha_masked(t.material) && cut_out_in_voxel(t, in_grid, voxel)) return;
-  imageAtomicMax(owner, voxel, index + 1u);
+  imageAtomicMax(owner, voxel, owner_key(index, t.material));
 }
 
 void claim_columns(uint index, Triangle t, Corners in_grid, Supercover cover, uint first, uint stride) {

@@ -1,10 +1,11 @@
 // A fragment is the centre of a column of voxels within a triangle's projection; the triangle claims the voxel in which
-// its plane meets that line. One atomic maximum, no compare-and-swap: the last triangle in draw order keeps the voxel,
+// its plane meets that line. One atomic maximum, no compare-and-swap: the triangle with the greatest key keeps the voxel,
 // whatever the order in which fragments are shaded.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/supercover.glsl"
+#include "lib/voxel_owner.glsl"
 #include "lib/voxel_sample.glsl"
 
 layout(location = 0) flat in uint index;
@@ -24,5 +25,5 @@ void main() {
   if (!inside_grid(extent, voxel)) return;
   Triangle t = triangles[index];
   if (alpha_masked(t.material) && cut_out_in_voxel(t, grid_corners(scene_grid(extent), t), voxel)) return;
-  imageAtomicMax(owner, voxel, index + 1u);
+  imageAtomicMax(owner, voxel, owner_key(index, t.material));
 }

@@ -5,6 +5,7 @@
 #include "lib/basis.glsl"
 #include "lib/box.glsl"
 #include "lib/voxel_encoding.glsl"
+#include "lib/voxel_owner.glsl"
 #include "lib/voxel_sample.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -44,7 +45,7 @@ VoxelSurface surface_in_voxel(Grid grid, Triangle t, ivec3 voxel) {
 
 void resolve(Grid grid, ivec3 voxel) {
   vec4 albedo, normal, material;
-  encode_voxel(surface_in_voxel(grid, triangles[imageLoad(owner, voxel).x - 1u], voxel), albedo, normal, material);
+  encode_voxel(surface_in_voxel(grid, triangles[owner_triangle(imageLoad(owner, voxel).x)], voxel), albedo, normal, material);
   imageStore(out_voxels_albedo, voxel, albedo);
   imageStore(out_voxels_normal, voxel, normal);
   imageStore(out_voxels_material, voxel, material);
