@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "framework/base/text.hpp"
-#include "framework/cli/program.hpp"
 #include "framework/image/png.hpp"
+#include "tests/cli/program_fixture.hpp"
 #include "tests/shaders/ward_vectors.hpp"
 
 namespace lightloom::cli {
@@ -21,18 +21,9 @@ using ::testing::HasSubstr;
 
 constexpr std::array<const char*, 3> kModels = {"ward92", "dur", "bounded"};
 
-class BrdfCommand : public ::testing::Test {
+class BrdfCommand : public ProgramTest {
  protected:
-  int run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "brdf");
-    std::ostringstream out;
-    std::ostringstream err;
-    const CommandContext context{out, err, false, registry_};
-    const ExitCode code = run_program(arguments, context);
-    out_ = out.str();
-    err_ = err.str();
-    return static_cast<int>(code);
-  }
+  BrdfCommand() : ProgramTest({"brdf"}) {}
 
   nlohmann::json run_json(std::vector<std::string> arguments) {
     arguments.emplace_back("--json");
@@ -48,10 +39,6 @@ class BrdfCommand : public ::testing::Test {
     EXPECT_THAT(err_, HasSubstr(sentence));
     EXPECT_EQ(split(err_, '\n')[0].rfind("error: option", 0), 0u) << err_;
   }
-
-  PassRegistry registry_;
-  std::string out_;
-  std::string err_;
 };
 
 std::string pair_text(double a, double b) {

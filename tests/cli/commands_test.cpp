@@ -7,9 +7,8 @@
 #include <sstream>
 
 #include "framework/base/text.hpp"
-#include "framework/cli/program.hpp"
 #include "framework/cli/text_layout.hpp"
-#include "passes/registry.hpp"
+#include "tests/cli/program_fixture.hpp"
 #include "tests/support/source_dir.hpp"
 
 namespace lightloom::cli {
@@ -26,35 +25,12 @@ const std::string kSource = source_dir().string();
 const std::string kGraph = kSource + "/graphs/paper.json";
 const std::string kScene = kSource + "/samples/scenes/atrium.scene.json";
 
-/// The program in this process, its output caught.
-class Commands : public ::testing::Test {
+class Commands : public ProgramTest {
  protected:
-  Commands() {
-    passes::register_builtin_passes(registry_);
-    std::string name = (std::filesystem::temp_directory_path() / "lightloom_commands_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~Commands() override { std::filesystem::remove_all(folder_); }
-
-  int run(const std::vector<std::string>& arguments) {
-    std::ostringstream out;
-    std::ostringstream err;
-    const CommandContext context{out, err, false, registry_};
-    const ExitCode code = run_program(arguments, context);
-    out_ = out.str();
-    err_ = err.str();
-    return static_cast<int>(code);
-  }
   std::string file(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name) << text;
     return (folder_ / name).string();
   }
-
-  PassRegistry registry_;
-  std::filesystem::path folder_;
-  std::string out_;
-  std::string err_;
 };
 
 TEST_F(Commands, help_and_version_go_to_standard_output) {

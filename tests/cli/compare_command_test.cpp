@@ -4,14 +4,13 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "framework/base/text.hpp"
-#include "framework/cli/program.hpp"
 #include "framework/image/exr.hpp"
 #include "framework/image/metrics.hpp"
 #include "framework/image/npy.hpp"
 #include "framework/image/png.hpp"
+#include "tests/cli/program_fixture.hpp"
 #include "tests/image/metric_images.hpp"
 
 namespace lightloom::cli {
@@ -26,17 +25,9 @@ using ::testing::Not;
 const std::vector<std::string> kKeys = {"mse",  "rmse",       "psnr",      "relmse",    "mape",       "smape", "ssim",
                                         "flip", "mean_error", "max_error", "fireflies", "non_finite", "bias"};
 
-class CompareCommand : public ::testing::Test {
+class CompareCommand : public ProgramTest {
  protected:
-  CompareCommand() {
-    std::string name = (std::filesystem::temp_directory_path() / "lightloom_compare_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~CompareCommand() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
+  CompareCommand() : ProgramTest({"compare"}) {}
 
   std::string path(const std::string& name) { return (folder_ / name).string(); }
   std::string exr(const std::string& name, const HostImage& image) {
@@ -50,16 +41,6 @@ class CompareCommand : public ::testing::Test {
     image::write_png(folder_ / name, image);
     return path(name);
   }
-  int run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "compare");
-    std::ostringstream out;
-    std::ostringstream err;
-    const CommandContext context{out, err, false, registry_};
-    const ExitCode code = run_program(arguments, context);
-    out_ = out.str();
-    err_ = err.str();
-    return static_cast<int>(code);
-  }
   nlohmann::ordered_json run_json(std::vector<std::string> arguments) {
     arguments.emplace_back("--json");
     EXPECT_EQ(run(arguments), 0) << err_;
@@ -71,11 +52,6 @@ class CompareCommand : public ::testing::Test {
     EXPECT_EQ(out_, "");
     EXPECT_THAT(err_, AllOf(HasSubstr("error: "), HasSubstr(sentence)));
   }
-
-  PassRegistry registry_;
-  std::filesystem::path folder_;
-  std::string out_;
-  std::string err_;
 };
 
 std::vector<std::string> keys_of(const nlohmann::ordered_json& json) {

@@ -7,6 +7,7 @@
 
 #include "framework/base/file.hpp"
 #include "framework/graph/verify.hpp"
+#include "tests/graph/memory_needs.hpp"
 #include "tests/graph/random_graph.hpp"
 #include "tests/graph/real_passes.hpp"
 #include "tests/graph/toy_graphs.hpp"
@@ -16,16 +17,8 @@ namespace lightloom {
 namespace {
 
 using toy::file;
+using toy::needs_of;
 using toy::plan_of;
-
-std::vector<MemoryNeed> needs_of(const Graph& graph) {
-  std::vector<MemoryNeed> needs;
-  for (const Value& value : graph.values) {
-    const uint32_t kinds = value.desc.dimension == Dimension::d3 ? 1 : 3;
-    needs.push_back({byte_size(value), 256, kinds});
-  }
-  return needs;
-}
 
 /// What a value does in a frame, gathered without the code under test.
 struct Life {

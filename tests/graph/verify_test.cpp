@@ -7,6 +7,7 @@
 
 #include "framework/base/file.hpp"
 #include "framework/base/text.hpp"
+#include "tests/graph/memory_needs.hpp"
 #include "tests/graph/random_graph.hpp"
 #include "tests/graph/real_passes.hpp"
 #include "tests/graph/toy_graphs.hpp"
@@ -16,13 +17,8 @@ namespace lightloom {
 namespace {
 
 using toy::file;
+using toy::needs_of;
 using toy::plan_of;
-
-std::vector<MemoryNeed> needs_of(const Graph& graph) {
-  std::vector<MemoryNeed> needs;
-  for (const Value& value : graph.values) needs.push_back({byte_size(value), 256, 1});
-  return needs;
-}
 
 /// A plan with the memory that its values share.
 struct Case {
@@ -85,6 +81,7 @@ void mutate_offsets(const Case& sound, Count& count) {
   for (ValueId moved = 0; moved < sound.needs.size(); ++moved) {
     for (ValueId target = 0; target < sound.needs.size(); ++target) {
       if (!sound.sharing.places[moved] || !sound.sharing.places[target] ||
+          sound.sharing.places[moved]->heap != sound.sharing.places[target]->heap ||
           sound.sharing.places[moved]->offset == sound.sharing.places[target]->offset)
         continue;
       Case mutant = sound;
