@@ -30,10 +30,10 @@ struct PlannedSharing {
   MemorySharing sharing;
 };
 
-PlannedSharing share_on_device(const PlanOptions& options, Plan& plan) {
+PlannedSharing plan_sharing(const PlanOptions& options, Plan& plan) {
   const gpu::Device device({options.device, false});
   PlannedSharing planned{run::memory_needs(device, plan.graph), {}};
-  planned.sharing = share_memory(plan, planned.needs);
+  planned.sharing = run::share_on_device(device, plan, planned.needs);
   return planned;
 }
 
@@ -73,7 +73,7 @@ ExitCode print(const PlanOptions& options, const CommandContext& context) {
     context.out << print_plan(*plan);
     return ExitCode::done;
   }
-  const PlannedSharing planned = share_on_device(options, *plan);
+  const PlannedSharing planned = plan_sharing(options, *plan);
   context.out << print_plan(*plan);
   if (options.memory) print_memory(*plan, planned, context.out);
   return options.verify ? print_verification(*plan, planned, context.out) : ExitCode::done;

@@ -81,7 +81,19 @@ std::vector<MemoryNeed> memory_needs(const gpu::Device& device, const Graph& gra
   return needs;
 }
 
-ValueImages::ValueImages(const gpu::Device& device, Plan& plan, bool share_them) {
+MemorySharing share_on_device(const gpu::Device& device, Plan& plan, std::span<const MemoryNeed> needs) {
+  Plan shared = plan;
+  MemorySharing sharing = share_memory(shared, needs);
+  const uint64_t limit = device.info().max_allocation_bytes;
+  const bool fits = std::all_of(sharing.heaps.begin(), sharing.heaps.end(),
+                                [&](const SharedHeap& heap) { return limit == 0 || heap.bytes <= limit; });
+  // One allocation cannot hold them all: apart, each may still find its place.
+  if (!fits) return {{}, std::vector<std::optional<SharedPlace>>(needs.size())};
+  plan = std::move(shared);
+  return sharing;
+}
+
+ValueImages::ValueImages(const gpu::Device& device, Plan& plan, bool share) {
   require_room(plan.graph, room_of(device));
   const std::vector<VkImageUsageFlags> usage = usages(plan.graph);
   for (size_t id = 0; id < plan.graph.values.size(); ++id) {
@@ -92,25 +104,15 @@ ValueImages::ValueImages(const gpu::Device& device, Plan& plan, bool share_them)
     entries_.push_back(std::move(entry));
   }
   sharing_.places.resize(entries_.size());
-  if (share_them) sharing_ = share(device, plan);
+  if (share) {
+    std::vector<MemoryNeed> needs;
+    for (const Entry& entry : entries_) needs.push_back(need_of(entry.images.front()));
+    sharing_ = share_on_device(device, plan, needs);
+  }
   bind(device);
   for (const PlanStep& step : plan.steps)
     for (const Barrier& barrier : step.barriers)
       if (barrier.takes_over) entries_[barrier.value].taken_over = true;
-}
-
-MemorySharing ValueImages::share(const gpu::Device& device, Plan& plan) const {
-  std::vector<MemoryNeed> needs;
-  for (const Entry& entry : entries_) needs.push_back(need_of(entry.images.front()));
-  Plan shared = plan;
-  MemorySharing sharing = share_memory(shared, needs);
-  const uint64_t limit = device.info().max_allocation_bytes;
-  const bool fits = std::all_of(sharing.heaps.begin(), sharing.heaps.end(),
-                                [&](const SharedHeap& heap) { return limit == 0 || heap.bytes <= limit; });
-  // One allocation cannot hold them all: apart, each may still find its place.
-  if (!fits) return {{}, std::vector<std::optional<SharedPlace>>(entries_.size())};
-  plan = std::move(shared);
-  return sharing;
 }
 
 void ValueImages::bind(const gpu::Device& device) {
@@ -126,7 +128,6 @@ void ValueImages::bind(const gpu::Device& device) {
     heaps_.push_back(gpu::allocate_memory(device, need, gpu::MemoryKind::device, "memory that values share"));
   for (size_t id = 0; id < entries_.size(); ++id) {
     const std::optional<SharedPlace>& place = sharing_.places[id];
-    entries_[id].shares = place.has_value();
     for (gpu::Image& image : entries_[id].images) {
       if (place)
         image.bind(device, heaps_[place->heap].get(), place->offset);
@@ -207,9 +208,10 @@ void ValueImages::record_clear(VkCommandBuffer commands, const Clear& clear) con
 uint64_t ValueImages::bytes() const {
   uint64_t total = 0;
   for (const SharedHeap& heap : sharing_.heaps) total += heap.bytes;
-  for (const Entry& entry : entries_)
-    if (!entry.shares)
-      for (const gpu::Image& image : entry.images) total += image.memory_bytes();
+  for (size_t id = 0; id < entries_.size(); ++id) {
+    if (sharing_.places[id]) continue;
+    for (const gpu::Image& image : entries_[id].images) total += image.memory_bytes();
+  }
   return total;
 }
 

@@ -48,10 +48,8 @@ class ValueImages {
   struct Entry {
     std::vector<gpu::Image> images;
     uint32_t layers = 1;
-    bool shares = false;      ///< lies in a heap
     bool taken_over = false;  ///< its memory is somebody else's at other times
   };
-  [[nodiscard]] MemorySharing share(const gpu::Device& device, Plan& plan) const;
   void bind(const gpu::Device& device);
 
   std::vector<gpu::MemoryHandle> heaps_;  ///< outlive the images
@@ -61,6 +59,10 @@ class ValueImages {
 
 /// What the device says the values' images need, one entry a value. Binds no memory.
 [[nodiscard]] std::vector<MemoryNeed> memory_needs(const gpu::Device& device, const Graph& graph);
+
+/// share_memory, unless a heap would be more than the device gives in one allocation: then no value shares, and the
+/// plan stays as it is.
+MemorySharing share_on_device(const gpu::Device& device, Plan& plan, std::span<const MemoryNeed> needs);
 
 /// Fills one layer (all layers: `layer` = VK_REMAINING_ARRAY_LAYERS) of an image in GENERAL with a colour; depth images
 /// take its first component, unsigned formats its components cast to unsigned.
