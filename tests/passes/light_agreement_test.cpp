@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tests/passes/estimator_support.hpp"
+#include "tests/passes/light_scenes.hpp"
 #include "tests/passes/light_support.hpp"
 #include "tests/support/device_fixture.hpp"
 
@@ -54,36 +55,20 @@ scene::Material lamp(const glm::vec3& radiance, bool two_sided) {
   return material;
 }
 
-scene::Material glossy_floor() {
-  scene::Material material;
-  material.base_color = glm::vec4(0.6f, 0.5f, 0.4f, 1);
-  material.metallic = 0;
-  material.roughness = 0.6f;
-  material.anisotropy_strength = 0.4f;
-  return material;
-}
-
-/// A floor and a wall, a lamp along the grid and one across it, of different radiance, and a post between them.
-scene::Scene lamps_scene(bool two_sided) {
-  const std::vector<QuadSpec> quads = {{{-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 0},
-                                       {{-2, 0, -2}, {4, 0, 0}, {0, 2.5f, 0}, 0},
-                                       {{-1.5f, 1.8f, -0.7f}, {1.2f, 0, 0}, {0, 0, 1.4f}, 1},
-                                       {{0.4f, 1.0f, -0.4f}, {0.9f, 0.5f, 0}, {-0.2f, 0.3f, 1.1f}, 2},
-                                       {{0, 0, 0.3f}, {0.4f, 0, 0.2f}, {0, 0.7f, 0}, 0}};
-  return make_quad_scene(quads, {glossy_floor(), lamp({4, 3, 2}, two_sided), lamp({1, 2, 6}, two_sided)},
-                         look_at({-1.2f, 1.6f, 2.6f}, {0, 0.3f, 0}, 0.9f));
+scene::Scene two_lamps(bool two_sided) {
+  return lamps_scene(lamp({4, 3, 2}, two_sided), lamp({1, 2, 6}, two_sided));
 }
 
 TEST_F(LightAgreement, OneSidedLamps) {
-  expect_strategies_agree(lamps_scene(false), R"("paths": 4, "bounces": 1)");
+  expect_strategies_agree(two_lamps(false), R"("paths": 4, "bounces": 1)");
 }
 
 TEST_F(LightAgreement, TwoSidedLamps) {
-  expect_strategies_agree(lamps_scene(true), R"("paths": 4, "bounces": 1)");
+  expect_strategies_agree(two_lamps(true), R"("paths": 4, "bounces": 1)");
 }
 
 TEST_F(LightAgreement, EveryMarchAndWithPowerOfTheSurface) {
-  const scene::Scene scene = lamps_scene(false);
+  const scene::Scene scene = two_lamps(false);
   for (const std::string march : {"sphere", "dda"}) {
     const std::string params = R"("paths": 4, "bounces": 0, "emitter_area": "surface", "march": ")" + march + "\"";
     expect_agreement(trace(scene, params + R"(, "strategy": "nee")"), trace(scene, params + R"(, "strategy": "bsdf")"),
@@ -133,7 +118,7 @@ TEST_F(LightAgreement, LampNarrowerThanAVoxelKeepsItsPower) {
 }
 
 TEST_F(LightAgreement, EveryChoiceGivesNumbersAndNearlyTheSameLight) {
-  scene::Scene scene = lamps_scene(false);
+  scene::Scene scene = two_lamps(false);
   scene.sun = scene::Sun{glm::normalize(glm::vec3(0.3f, -1, -0.6f)), glm::vec3(5), 0.1f};
   scene.environment.radiance = glm::vec3(0.5f);
   scene.features.sun = scene.features.environment = true;
@@ -150,7 +135,7 @@ TEST_F(LightAgreement, EveryChoiceGivesNumbersAndNearlyTheSameLight) {
 }
 
 TEST_F(LightAgreement, SunDiscOnAGlossyFloor) {
-  scene::Scene scene = lamps_scene(false);
+  scene::Scene scene = two_lamps(false);
   scene.materials[1].emission = scene.materials[2].emission = glm::vec3(0);
   scene.features.emissive = false;
   scene.sun = scene::Sun{glm::normalize(glm::vec3(0.3f, -1, -0.6f)), glm::vec3(5), 0.25f};

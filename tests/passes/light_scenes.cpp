@@ -56,4 +56,22 @@ QuadSpec square_floor(float half_width, uint32_t material) {
   return {{-half_width, 0, half_width}, {2 * half_width, 0, 0}, {0, 0, -2 * half_width}, material};
 }
 
+scene::Material glossy_floor() {
+  scene::Material material;
+  material.base_color = glm::vec4(0.6f, 0.5f, 0.4f, 1);
+  material.metallic = 0;
+  material.roughness = 0.6f;
+  material.anisotropy_strength = 0.4f;
+  return material;
+}
+
+scene::Scene lamps_scene(const scene::Material& along, const scene::Material& across) {
+  const std::vector<QuadSpec> quads = {{{-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 0},
+                                       {{-2, 0, -2}, {4, 0, 0}, {0, 2.5f, 0}, 0},
+                                       {{-1.5f, 1.8f, -0.7f}, {1.2f, 0, 0}, {0, 0, 1.4f}, 1},
+                                       {{0.4f, 1.0f, -0.4f}, {0.9f, 0.5f, 0}, {-0.2f, 0.3f, 1.1f}, 2},
+                                       {{0, 0, 0.3f}, {0.4f, 0, 0.2f}, {0, 0.7f, 0}, 0}};
+  return make_quad_scene(quads, {glossy_floor(), along, across}, look_at({-1.2f, 1.6f, 2.6f}, {0, 0.3f, 0}, 0.9f));
+}
+
 }  // namespace lightloom::test

@@ -62,4 +62,9 @@ glm::dvec3 surface_position(const Images& images, uint32_t x, uint32_t y);
 /// A square floor around the origin that faces up, `half_width` to each side.
 QuadSpec square_floor(float half_width, uint32_t material = 0);
 
+scene::Material glossy_floor();
+
+/// A glossy floor and wall, a lamp along the grid and one across it, of these materials, and a post between them.
+scene::Scene lamps_scene(const scene::Material& along, const scene::Material& across);
+
 }  // namespace lightloom::test

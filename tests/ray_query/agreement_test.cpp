@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tests/passes/estimator_support.hpp"
+#include "tests/passes/light_scenes.hpp"
 #include "tests/passes/voxel_support.hpp"
 #include "tests/ray_query/ray_query_support.hpp"
 #include "tests/support/source_dir.hpp"
@@ -27,29 +28,15 @@ class RayQueryAgreement : public RayQueryTest {
   }
 };
 
-scene::Material glossy_floor() {
-  scene::Material material;
-  material.base_color = glm::vec4(0.6f, 0.5f, 0.4f, 1);
-  material.metallic = 0;
-  material.roughness = 0.6f;
-  material.anisotropy_strength = 0.4f;
-  return material;
-}
-
-/// A floor, a wall and a post under two lamps of different radiance, one of which shines from both sides.
-scene::Scene lamps_scene() {
-  const std::vector<QuadSpec> quads = {{{-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 0},
-                                       {{-2, 0, -2}, {4, 0, 0}, {0, 2.5f, 0}, 0},
-                                       {{-1.5f, 1.8f, -0.7f}, {1.2f, 0, 0}, {0, 0, 1.4f}, 1},
-                                       {{0.4f, 1.0f, -0.4f}, {0.9f, 0.5f, 0}, {-0.2f, 0.3f, 1.1f}, 2},
-                                       {{0, 0, 0.3f}, {0.4f, 0, 0.2f}, {0, 0.7f, 0}, 0}};
+/// Two lamps of different radiance, one of which shines from both sides.
+scene::Scene two_lamps() {
   scene::Material one = lamp_material({4, 3, 2}), other = lamp_material({1, 2, 6}, true);
   one.base_color = other.base_color = glm::vec4(0.2f, 0.2f, 0.2f, 1);
-  return make_quad_scene(quads, {glossy_floor(), one, other}, look_at({-1.2f, 1.6f, 2.6f}, {0, 0.3f, 0}, 0.9f));
+  return lamps_scene(one, other);
 }
 
 TEST_F(RayQueryAgreement, StrategiesAndHeuristics) {
-  const scene::Scene scene = lamps_scene();
+  const scene::Scene scene = two_lamps();
   const std::string params = R"("paths": 8, "regularization": 0, "strategy": )";
   const ImageEstimate both = estimate_of(scene, params + R"("mis")", 16);
   expect_agreement(both, estimate_of(scene, params + R"("mis", "heuristic": "power")", 16), "power heuristic");
@@ -58,7 +45,7 @@ TEST_F(RayQueryAgreement, StrategiesAndHeuristics) {
 }
 
 TEST_F(RayQueryAgreement, ReferenceUnderLamps) {
-  expect_reference(lamps_scene(), "lamps");
+  expect_reference(two_lamps(), "lamps");
 }
 
 /// An image whose left half is cut out and whose rest is a pattern of colours. Only black and white, since lavapipe
