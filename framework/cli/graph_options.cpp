@@ -43,4 +43,8 @@ LinkOptions GraphOptions::link_options() const {
   return options;
 }
 
+CompileOptions GraphOptions::compile_options() const {
+  return {};
+}
+
 }  // namespace lightloom::cli

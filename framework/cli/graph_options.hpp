@@ -6,6 +6,7 @@
 
 #include "framework/cli/argument_parser.hpp"
 #include "framework/graph/link.hpp"
+#include "framework/graph/plan.hpp"
 
 namespace lightloom::cli {
 
@@ -24,6 +25,7 @@ struct GraphOptions {
 
   void add_to(Command& command);
   [[nodiscard]] LinkOptions link_options() const;
+  [[nodiscard]] CompileOptions compile_options() const;
 };
 
 }  // namespace lightloom::cli

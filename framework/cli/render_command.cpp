@@ -43,6 +43,7 @@ run::RenderRequest make_request(const RenderOptions& options, const CommandConte
   request.graph = options.graph;
   request.scene = options.scene;
   request.link = options.changes.link_options();
+  request.compile = options.changes.compile_options();
   request.camera = options.camera;
   request.camera_path = options.camera_path;
   request.dump_format = options.dump_format == "npy" ? run::DumpFormat::npy : run::DumpFormat::exr;

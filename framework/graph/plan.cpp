@@ -23,6 +23,12 @@ std::vector<std::pair<ValueId, uint32_t>> observed(const Graph& graph) {
   return result;
 }
 
+void add_scans(const Graph& graph, std::vector<PlanStep>& steps) {
+  for (PlanStep& step : steps)
+    for (const auto* uses : {&graph.passes[step.pass].outputs, &graph.passes[step.pass].scratch})
+      for (const Use& use : *uses) step.observations.push_back({use.value, 0, Observer::scan, {}});
+}
+
 }  // namespace
 
 std::string_view to_string(Hazard hazard) {
@@ -37,7 +43,15 @@ std::string_view to_string(Hazard hazard) {
   return "write after write";
 }
 
-Plan compile(const Graph& graph) {
+Access access_of(Observer observer) {
+  return observer == Observer::scan ? Access::compute_sampled_read : Access::transfer_read;
+}
+
+std::string_view to_string(Observer observer) {
+  return observer == Observer::scan ? "the scan" : "the read-back";
+}
+
+Plan compile(const Graph& graph, const CompileOptions& options) {
   Plan plan;
   plan.graph = graph;
   std::vector<std::optional<uint32_t>> producer_step(graph.values.size());
@@ -51,7 +65,12 @@ Plan compile(const Graph& graph) {
   }
   for (const auto& [value, age] : observed(graph)) {
     const std::optional<uint32_t> step = producer_step[value];
-    (step ? plan.steps[*step].copies : plan.opening_copies).push_back({value, age, {}});
+    (step ? plan.steps[*step].observations : plan.opening_observations)
+        .push_back({value, age, Observer::read_back, {}});
+  }
+  if (options.scan) {
+    add_scans(graph, plan.once);
+    add_scans(graph, plan.steps);
   }
   synchronise(plan);
   return plan;

@@ -31,17 +31,26 @@ struct Barrier {
   bool takes_over = false;
 };
 
-/// Observation of a value: copied to a read-back buffer as soon as it is there, so that nothing lives longer for it.
-struct Copy {
+/// Who looks at a value without changing it.
+enum class Observer : uint8_t {
+  read_back,  ///< copied for the host: outputs, dumps, probes
+  scan,       ///< searched on the device for what no texel should hold: NaN, infinity, poison
+};
+[[nodiscard]] Access access_of(Observer observer);
+[[nodiscard]] std::string_view to_string(Observer observer);  ///< "the read-back", "the scan"
+
+/// Observation of a value as soon as it is there, so that nothing lives longer for it.
+struct Observation {
   ValueId value = 0;
   uint32_t age = 0;
-  std::vector<Barrier> barriers;  ///< to be recorded before the copy
+  Observer observer = Observer::read_back;
+  std::vector<Barrier> barriers;  ///< to be recorded before it
 };
 
 struct PlanStep {
-  uint32_t pass = 0;              ///< index into Graph::passes
-  std::vector<Barrier> barriers;  ///< to be recorded before the pass
-  std::vector<Copy> copies;       ///< after the pass
+  uint32_t pass = 0;                      ///< index into Graph::passes
+  std::vector<Barrier> barriers;          ///< to be recorded before the pass
+  std::vector<Observation> observations;  ///< after the pass
 };
 
 /// Every layer of a value is cleared, once, before anything else.
@@ -52,7 +61,7 @@ struct Clear {
 
 /// What is executed, as plain data. Before the first frame: prologue, prologue_barriers. Then each frame in order:
 /// frame_start, uploads of frame inputs, inputs_ready, in the first frame alone `once` and once_barriers,
-/// opening_copies, then `steps`; a step is its barriers, its pass, its copies.
+/// opening_observations, then `steps`; a step is its barriers, its pass, its observations.
 ///
 /// A pass's first command may be a clear (transfer) although its port declares another access; the barriers here reach
 /// the declared access's stages, so the one who records the clear chains from those stages to the transfer.
@@ -60,23 +69,45 @@ struct Plan {
   Graph graph;
   std::vector<Clear> prologue;             ///< constants, rings, persistent values
   std::vector<Barrier> prologue_barriers;  ///< after the clears
-  std::vector<PlanStep> once;              ///< passes that give the same in every frame (GraphPass::once); no copies
-  std::vector<Barrier> once_barriers;      ///< after them, for those that only the frame's steps and copies read
+  std::vector<PlanStep> once;              ///< passes that give the same in every frame (GraphPass::once)
+  std::vector<Barrier> once_barriers;      ///< after them, for those that only the frame's steps and observers read
   std::vector<Barrier> frame_start;        ///< last frame's reads of frame inputs before this frame's upload
   std::vector<Barrier> inputs_ready;       ///< upload before the reads
-  std::vector<Copy> opening_copies;        ///< of values that `steps` do not produce: constants, those of `once`
-  std::vector<PlanStep> steps;             ///< what every frame runs
+  std::vector<Observation> opening_observations;  ///< of values that `steps` do not produce: constants, those of `once`
+  std::vector<PlanStep> steps;                    ///< what every frame runs
 };
 
-/// Orders and synchronises. Pure; the same graph gives the same plan.
-[[nodiscard]] Plan compile(const Graph& graph);
+/// How the plan keeps one access from meeting another.
+enum class SyncPolicy : uint8_t {
+  minimal,       ///< only the barriers that the accesses demand
+  conservative,  ///< everything before a step is done before the step begins
+};
+
+/// In which order passes run; any of them keeps every producer before its readers of the same frame.
+enum class PassOrder : uint8_t {
+  level,     ///< as soon as possible, then as declared
+  declared,  ///< as declared, as far as producers allow
+  random,    ///< drawn by a seed
+};
+
+/// Choices that change how a graph is executed but never what it computes.
+struct CompileOptions {
+  SyncPolicy sync = SyncPolicy::minimal;
+  PassOrder order = PassOrder::level;
+  uint64_t order_seed = 0;  ///< of PassOrder::random
+  bool scan = false;        ///< every value that a pass writes is scanned right behind it
+};
+
+/// Orders and synchronises. Pure; the same graph and options give the same plan.
+[[nodiscard]] Plan compile(const Graph& graph, const CompileOptions& options = {});
 
 /// Readable text: what runs once and why, what each frame runs in order, params, inputs with ages, outputs with shapes
 /// and bytes, barriers with reasons, what was culled and bypassed, memory and rings.
 [[nodiscard]] std::string print_plan(const Plan& plan);
 
-/// Hash of what is executed: steps, once or each frame, params, values, uses, barriers, copies. What was culled or
-/// bypassed, remarks and positions in the file do not count, so a disabled node hashes as if it had never been written.
+/// Hash of what is executed: steps, once or each frame, params, values, uses, barriers, observations. What was culled
+/// or bypassed, remarks and positions in the file do not count, so a disabled node hashes as if it had never been
+/// written.
 [[nodiscard]] uint64_t plan_hash(const Plan& plan);
 
 struct MemoryUse {

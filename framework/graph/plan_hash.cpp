@@ -21,7 +21,7 @@ class PlanHasher {
     barriers(plan_.once_barriers);
     barriers(plan_.frame_start);
     barriers(plan_.inputs_ready);
-    copies(plan_.opening_copies);
+    observations(plan_.opening_observations);
     steps(plan_.steps);
     hasher_.number(plan_.graph.outputs.size());
     for (const GraphOutput& output : plan_.graph.outputs) {
@@ -39,7 +39,7 @@ class PlanHasher {
     for (const PlanStep& step : list) {
       barriers(step.barriers);
       pass(plan_.graph.passes[step.pass]);
-      copies(step.copies);
+      observations(step.observations);
     }
   }
 
@@ -94,12 +94,13 @@ class PlanHasher {
     }
   }
 
-  void copies(const std::vector<Copy>& list) {
+  void observations(const std::vector<Observation>& list) {
     hasher_.number(list.size());
-    for (const Copy& copy : list) {
-      value(copy.value);
-      hasher_.number(copy.age);
-      barriers(copy.barriers);
+    for (const Observation& observation : list) {
+      value(observation.value);
+      hasher_.number(observation.age);
+      hasher_.number(static_cast<uint64_t>(observation.observer));
+      barriers(observation.barriers);
     }
   }
 

@@ -39,7 +39,7 @@ class Printer {
     barriers(plan_.frame_start);
     out_ << "  upload frame inputs\n";
     barriers(plan_.inputs_ready);
-    copies(plan_.opening_copies);
+    observations(plan_.opening_observations);
     for (const PlanStep& each : plan_.steps) step(each);
     remarks();
     return out_.str();
@@ -99,11 +99,11 @@ class Printer {
     }
   }
 
-  void copies(const std::vector<Copy>& list) {
-    for (const Copy& copy : list) {
-      barriers(copy.barriers);
-      out_ << "  read back " << name(copy.value);
-      if (copy.age > 0) out_ << "@" << copy.age;
+  void observations(const std::vector<Observation>& list) {
+    for (const Observation& observation : list) {
+      barriers(observation.barriers);
+      out_ << (observation.observer == Observer::scan ? "  scan " : "  read back ") << name(observation.value);
+      if (observation.age > 0) out_ << "@" << observation.age;
       out_ << "\n";
     }
   }
@@ -120,7 +120,7 @@ class Printer {
     for (const std::string& port : pass.unconnected) out_ << "       in  " << port << ": not connected\n";
     for (const Use& use : pass.outputs) written("out ", use);
     for (const Use& use : pass.scratch) written("tmp ", use);
-    copies(step.copies);
+    observations(step.observations);
   }
 
   void input(const Use& use) {

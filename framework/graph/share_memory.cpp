@@ -79,8 +79,8 @@ class Sharing {
           if (!own[use.value]) found[use.value] = begin(use, step);
       for (const Use& use : pass.inputs)
         if (found[use.value]) touch(*found[use.value], use.access, step);
-      for (const Copy& copy : plan_.steps[step].copies)
-        if (found[copy.value]) touch(*found[copy.value], Access::transfer_read, step);
+      for (const Observation& observation : plan_.steps[step].observations)
+        if (found[observation.value]) touch(*found[observation.value], access_of(observation.observer), step);
     }
     std::map<uint32_t, std::vector<Tenant>> by_kind;
     for (const std::optional<Tenant>& tenant : found)

@@ -12,11 +12,12 @@ namespace {
 
 enum class Section : uint8_t { once, frame };
 
-/// A point where barriers can stand: before the pass of a step (`copy` 0) or before its copy `copy` - 1.
+/// A point where barriers can stand: before the pass of a step (`observation` 0) or before its observation
+/// `observation` - 1.
 struct Position {
   Section section = Section::frame;
   uint32_t step = 0;
-  uint32_t copy = 0;
+  uint32_t observation = 0;
   auto operator<=>(const Position&) const = default;
 };
 
@@ -46,6 +47,11 @@ bool same_stages(Access a, Access b) {
   return access_info(a).stages == access_info(b).stages;
 }
 
+Reader reader(const Observation& observation, const Position& position) {
+  return {position, access_of(observation.observer), observation.age, observation.age,
+          std::string(to_string(observation.observer))};
+}
+
 void collect(std::vector<Round>& rounds, const Graph& graph, const std::vector<PlanStep>& steps, Section section) {
   for (uint32_t step = 0; step < steps.size(); ++step) {
     const GraphPass& pass = graph.passes[steps[step].pass];
@@ -58,10 +64,9 @@ void collect(std::vector<Round>& rounds, const Graph& graph, const std::vector<P
         rounds[use.value].writer = pass.name;
       }
     }
-    const std::vector<Copy>& copies = steps[step].copies;
-    for (uint32_t i = 0; i < copies.size(); ++i)
-      rounds[copies[i].value].readers.push_back(
-          {{section, step, i + 1}, Access::transfer_read, copies[i].age, copies[i].age, "the read-back"});
+    const std::vector<Observation>& observations = steps[step].observations;
+    for (uint32_t i = 0; i < observations.size(); ++i)
+      rounds[observations[i].value].readers.push_back(reader(observations[i], {section, step, i + 1}));
   }
 }
 
@@ -69,9 +74,8 @@ std::vector<Round> collect_rounds(const Plan& plan) {
   std::vector<Round> rounds(plan.graph.values.size());
   collect(rounds, plan.graph, plan.once, Section::once);
   collect(rounds, plan.graph, plan.steps, Section::frame);
-  for (const Copy& copy : plan.opening_copies)
-    rounds[copy.value].readers.push_back(
-        {{Section::frame, 0, 0}, Access::transfer_read, copy.age, copy.age, "the read-back"});
+  for (const Observation& observation : plan.opening_observations)
+    rounds[observation.value].readers.push_back(reader(observation, {Section::frame, 0, 0}));
   return rounds;
 }
 
@@ -203,7 +207,7 @@ class Synchroniser {
 
   std::vector<Barrier>& at(const Position& position) {
     PlanStep& step = (position.section == Section::once ? plan_.once : plan_.steps)[position.step];
-    return position.copy == 0 ? step.barriers : step.copies[position.copy - 1].barriers;
+    return position.observation == 0 ? step.barriers : step.observations[position.observation - 1].barriers;
   }
 
   Plan& plan_;

@@ -80,7 +80,7 @@ class Player {
       steps(plan_.once, frame);
       barriers(plan_.once_barriers);
     }
-    copies(plan_.opening_copies, frame);
+    observations(plan_.opening_observations, frame);
     steps(plan_.steps, frame);
   }
 
@@ -100,7 +100,7 @@ class Player {
                  .content = kept(use.value, frame),
                  .who = pass.name},
                 frame % map_.layers(use.value));
-      copies(step.copies, frame);
+      observations(step.observations, frame);
     }
   }
 
@@ -109,10 +109,11 @@ class Player {
     return plan_.graph.values[value].persistent ? std::max(frame - 1, kPrologue) : kUndefined;
   }
 
-  void copies(const std::vector<Copy>& list, int frame) {
-    for (const Copy& copy : list) {
-      barriers(copy.barriers);
-      read(copy.value, Access::transfer_read, copy.age, frame, "the read-back");
+  void observations(const std::vector<Observation>& list, int frame) {
+    for (const Observation& observation : list) {
+      barriers(observation.barriers);
+      read(observation.value, access_of(observation.observer), observation.age, frame,
+           std::string(to_string(observation.observer)));
     }
   }
 

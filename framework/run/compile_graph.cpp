@@ -21,13 +21,14 @@ LinkEnvironment link_environment(const scene::Scene* scene) {
 }
 
 std::optional<Plan> compile_graph(const std::filesystem::path& file, const PassRegistry& registry,
-                                  const LinkOptions& options, const scene::Scene* scene, Diagnostics& diagnostics) {
+                                  const LinkOptions& options, const scene::Scene* scene, Diagnostics& diagnostics,
+                                  const CompileOptions& compile_options) {
   const std::string text = read_text_file(file);
   const std::optional<GraphSpec> spec = parse_graph(text, file.string(), diagnostics);
   if (!spec) return std::nullopt;
   const std::optional<Graph> graph = link(*spec, registry, options, link_environment(scene), diagnostics);
   if (!graph) return std::nullopt;
-  return compile(*graph);
+  return compile(*graph, compile_options);
 }
 
 }  // namespace lightloom::run

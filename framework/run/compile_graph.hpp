@@ -18,6 +18,6 @@ namespace lightloom::run {
 /// the file cannot be read.
 [[nodiscard]] std::optional<Plan> compile_graph(const std::filesystem::path& file, const PassRegistry& registry,
                                                 const LinkOptions& options, const scene::Scene* scene,
-                                                Diagnostics& diagnostics);
+                                                Diagnostics& diagnostics, const CompileOptions& compile_options = {});
 
 }  // namespace lightloom::run

@@ -106,7 +106,7 @@ void Executor::record_frame(gpu::CommandSession& session) {
     record_steps(session, plan_.once, query_count(plan_.steps.size()));
     record_barriers(session.get(), plan_.once_barriers);
   }
-  record_copies(session.get(), plan_.opening_copies);
+  record_observations(session.get(), plan_.opening_observations);
   record_steps(session, plan_.steps, 0);
   Readback::record_end(session.get());
 }
@@ -123,7 +123,7 @@ void Executor::record_steps(gpu::CommandSession& session, const std::vector<Plan
     else
       record_pass(session.get(), pass);
     record_timestamp(session.get(), query++);
-    record_copies(session.get(), step.copies);
+    record_observations(session.get(), step.observations);
   }
 }
 
@@ -155,10 +155,10 @@ void Executor::record_timestamp(VkCommandBuffer commands, uint32_t query) const 
   gpu::record_full_barrier(commands);
 }
 
-void Executor::record_copies(VkCommandBuffer commands, const std::vector<Copy>& copies) const {
-  for (const Copy& copy : copies) {
-    record_barriers(commands, copy.barriers);
-    readback_.record(commands, copy, images_, frame_count_);
+void Executor::record_observations(VkCommandBuffer commands, const std::vector<Observation>& observations) const {
+  for (const Observation& observation : observations) {
+    record_barriers(commands, observation.barriers);
+    readback_.record(commands, observation, images_, frame_count_);
   }
 }
 

@@ -67,7 +67,7 @@ class Executor {
   void record_pass(VkCommandBuffer commands, const GraphPass& pass);
   void run_host_pass(gpu::CommandSession& session, const GraphPass& pass);
   void record_timestamp(VkCommandBuffer commands, uint32_t query) const;
-  void record_copies(VkCommandBuffer commands, const std::vector<Copy>& copies) const;
+  void record_observations(VkCommandBuffer commands, const std::vector<Observation>& observations) const;
   [[nodiscard]] FrameResult collect(uint32_t frame, const FrameConditions& conditions) const;
   [[nodiscard]] std::vector<PassTime> times_of(const std::vector<PlanStep>& steps, const std::vector<double>& stamps,
                                                size_t first_query) const;

@@ -8,23 +8,23 @@
 namespace lightloom::run {
 
 Readback::Readback(const gpu::Device& device, const Plan& plan) {
-  for (const Copy& copy : plan.opening_copies) add(device, plan.graph, copy);
+  for (const Observation& observation : plan.opening_observations) add(device, plan.graph, observation);
   for (const PlanStep& step : plan.steps)
-    for (const Copy& copy : step.copies) add(device, plan.graph, copy);
+    for (const Observation& observation : step.observations) add(device, plan.graph, observation);
 }
 
-void Readback::add(const gpu::Device& device, const Graph& graph, const Copy& copy) {
-  const Value& value = graph.values.at(copy.value);
-  const Key key{copy.value, copy.age};
+void Readback::add(const gpu::Device& device, const Graph& graph, const Observation& observation) {
+  const Value& value = graph.values.at(observation.value);
+  const Key key{observation.value, observation.age};
   buffers_.try_emplace(key, device, byte_size(value.desc), 0, gpu::MemoryKind::readback, value_name(value));
   descs_.try_emplace(key, value.desc);
 }
 
-void Readback::record(VkCommandBuffer commands, const Copy& copy, const ValueImages& images,
+void Readback::record(VkCommandBuffer commands, const Observation& observation, const ValueImages& images,
                       uint64_t frame_count) const {
-  const ValueLayer layer = images.layer(copy.value, copy.age, frame_count);
+  const ValueLayer layer = images.layer(observation.value, observation.age, frame_count);
   gpu::record_image_to_buffer(commands, *layer.image, gpu::whole_level(*layer.image, layer.layer),
-                              VK_IMAGE_LAYOUT_GENERAL, buffers_.at({copy.value, copy.age}).get(), 0);
+                              VK_IMAGE_LAYOUT_GENERAL, buffers_.at({observation.value, observation.age}).get(), 0);
 }
 
 void Readback::record_end(VkCommandBuffer commands) {

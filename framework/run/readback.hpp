@@ -15,7 +15,8 @@ class Readback {
   Readback(const gpu::Device& device, const Plan& plan);
 
   /// Records the copy; its barriers are the plan's.
-  void record(VkCommandBuffer commands, const Copy& copy, const ValueImages& images, uint64_t frame_count) const;
+  void record(VkCommandBuffer commands, const Observation& observation, const ValueImages& images,
+              uint64_t frame_count) const;
   /// Makes the copies visible to the host; last command of a submission.
   static void record_end(VkCommandBuffer commands);
   /// The texels of the last frame; valid once the device is done.
@@ -23,7 +24,7 @@ class Readback {
 
  private:
   using Key = std::pair<ValueId, uint32_t>;
-  void add(const gpu::Device& device, const Graph& graph, const Copy& copy);
+  void add(const gpu::Device& device, const Graph& graph, const Observation& observation);
 
   std::map<Key, gpu::Buffer> buffers_;
   std::map<Key, ImageDesc> descs_;

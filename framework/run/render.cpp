@@ -158,7 +158,7 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
   const scene::Scene scene = scene::load_scene(request.scene);
   std::optional<scene::CameraPath> path;
   if (!request.camera_path.empty()) path = scene::read_camera_path(request.camera_path);
-  std::optional<Plan> plan = compile_graph(request.graph, registry, request.link, &scene, diagnostics);
+  std::optional<Plan> plan = compile_graph(request.graph, registry, request.link, &scene, diagnostics, request.compile);
   if (!plan) return false;
   gpu::Device device(request.device);
   Run run{.request = request,

@@ -10,6 +10,7 @@
 #include "framework/gpu/device.hpp"
 #include "framework/graph/link.hpp"
 #include "framework/graph/pass_type.hpp"
+#include "framework/graph/plan.hpp"
 #include "framework/run/plugins.hpp"
 #include "framework/run/run_folder.hpp"
 #include "framework/run/shader_folders.hpp"
@@ -21,6 +22,7 @@ struct RenderRequest {
   std::filesystem::path graph;
   std::filesystem::path scene;
   LinkOptions link;                   ///< variants, disables, swaps, sets, captures (--dump), view size
+  CompileOptions compile;             ///< how the graph is executed
   std::string camera;                 ///< empty: the scene's first
   std::filesystem::path camera_path;  ///< keyframes that the camera follows; empty: it does what the scene says
   uint32_t seed = 0;

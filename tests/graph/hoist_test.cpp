@@ -124,13 +124,13 @@ class SymbolicRun {
  public:
   explicit SymbolicRun(const Plan& plan) : plan_(plan) {}
 
-  /// What the copies of each frame see, in order of value and age.
+  /// What the observations of each frame see, in order of value and age.
   std::vector<std::map<std::pair<std::string, uint32_t>, std::string>> run(int frames) {
     std::vector<std::map<std::pair<std::string, uint32_t>, std::string>> seen;
     for (frame_ = 0; frame_ < frames; ++frame_) {
       seen.emplace_back();
       if (frame_ == 0) steps(plan_.once, seen.back());
-      copies(plan_.opening_copies, seen.back());
+      observations(plan_.opening_observations, seen.back());
       steps(plan_.steps, seen.back());
     }
     return seen;
@@ -153,13 +153,14 @@ class SymbolicRun {
       for (const auto* uses : {&pass.outputs, &pass.scratch})
         for (const Use& use : *uses)
           memory_[{use.value, layer(use.value, 0)}] = symbol + "." + use.port + "." + use.part;
-      copies(step.copies, seen);
+      observations(step.observations, seen);
     }
   }
 
-  void copies(const std::vector<Copy>& list, Seen& seen) {
-    for (const Copy& copy : list)
-      seen[{value_name(plan_.graph.values[copy.value]), copy.age}] = at(copy.value, copy.age);
+  void observations(const std::vector<Observation>& list, Seen& seen) {
+    for (const Observation& observation : list)
+      seen[{value_name(plan_.graph.values[observation.value]), observation.age}] =
+          at(observation.value, observation.age);
   }
 
   uint32_t layer(ValueId value, uint32_t age) const {

@@ -40,7 +40,8 @@ std::vector<Life> lives_of(const Plan& plan) {
     for (const Use& use : pass.inputs) at(use.value).reads.insert(use.access);
     for (const Use& use : pass.outputs) at(use.value).write = use.access;
     for (const Use& use : pass.scratch) at(use.value).write = use.access;
-    for (const Copy& copy : plan.steps[step].copies) at(copy.value).reads.insert(Access::transfer_read);
+    for (const Observation& observation : plan.steps[step].observations)
+      at(observation.value).reads.insert(access_of(observation.observer));
   }
   return lives;
 }

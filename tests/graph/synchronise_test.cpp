@@ -19,11 +19,11 @@ void for_each_list(Plan& plan, Visit visit) {
   visit(plan.frame_start);
   visit(plan.inputs_ready);
   visit(plan.once_barriers);
-  for (Copy& copy : plan.opening_copies) visit(copy.barriers);
+  for (Observation& observation : plan.opening_observations) visit(observation.barriers);
   for (std::vector<PlanStep>* steps : {&plan.once, &plan.steps}) {
     for (PlanStep& step : *steps) {
       visit(step.barriers);
-      for (Copy& copy : step.copies) visit(copy.barriers);
+      for (Observation& observation : step.observations) visit(observation.barriers);
     }
   }
 }
@@ -106,8 +106,8 @@ TEST(Synchronise, CopiesStandRightBehindTheProducer) {
   options.captures = {"*"};
   const Plan plan = plan_of(file(kChain, R"("o": "g.a")"), options);
   for (const PlanStep& step : plan.steps) {
-    ASSERT_EQ(step.copies.size(), 1U);
-    EXPECT_EQ(plan.graph.values[step.copies[0].value].pass, plan.graph.passes[step.pass].name);
+    ASSERT_EQ(step.observations.size(), 1U);
+    EXPECT_EQ(plan.graph.values[step.observations[0].value].pass, plan.graph.passes[step.pass].name);
   }
   EXPECT_TRUE(verify(plan).violations.empty());
 }
@@ -122,7 +122,7 @@ TEST(Synchronise, ConstantsAreClearedOnceAndNeverWaitedForAgain) {
                             options);
   ASSERT_EQ(plan.prologue.size(), 1U);
   EXPECT_EQ(plan.prologue[0].color, (ClearColor{0, 0, 0, 1}));
-  EXPECT_EQ(plan.opening_copies.size(), 1U);
+  EXPECT_EQ(plan.opening_observations.size(), 1U);
   EXPECT_EQ(toy::order(plan), std::vector<std::string>{"f"});
   EXPECT_EQ(on_value(plan, "b.a"),
             (std::vector<std::string>{"transfer_write -> compute_sampled_read", "transfer_write -> transfer_read"}));
@@ -147,7 +147,7 @@ TEST(Synchronise, WhatIsWrittenOnceIsWaitedForOnce) {
   EXPECT_EQ(on_value(plan, "f.a"), (std::vector<std::string>{"compute_storage_write -> compute_sampled_read"}));
   EXPECT_EQ(on_value(plan, "m.tmp"), (std::vector<std::string>{"compute_storage_read_write -> transfer_read"}));
   EXPECT_EQ(on_value(plan, "h.a"), (std::vector<std::string>{"color_attachment_write -> transfer_read"}));
-  EXPECT_EQ(plan.opening_copies.size(), 3U);
+  EXPECT_EQ(plan.opening_observations.size(), 3U);
   EXPECT_TRUE(verify(plan).violations.empty());
 }
 

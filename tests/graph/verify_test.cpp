@@ -141,6 +141,23 @@ TEST(Verify, SeesMemoryThatWasNotTakenOver) {
   EXPECT_NE(violations.front().find("was not taken over"), std::string::npos) << violations.front();
 }
 
+TEST(Verify, ScannedPlansAreSound) {
+  for (uint32_t seed = 0; seed < 40; ++seed) {
+    const Graph graph = toy::graph_of(toy::random_graph(seed, 12));
+    const Case scanned(compile(graph, {.scan = true}));
+    EXPECT_EQ(scanned.violations(), std::vector<std::string>{}) << "seed " << seed;
+    size_t scans = 0;
+    for (const auto* steps : {&scanned.plan.once, &scanned.plan.steps})
+      for (const PlanStep& step : *steps)
+        scans +=
+            static_cast<size_t>(std::count_if(step.observations.begin(), step.observations.end(),
+                                              [](const Observation& each) { return each.observer == Observer::scan; }));
+    const auto constants = std::count_if(graph.values.begin(), graph.values.end(),
+                                         [](const Value& value) { return value.constant.has_value(); });
+    EXPECT_EQ(scans, graph.values.size() - static_cast<size_t>(constants)) << "seed " << seed;
+  }
+}
+
 TEST(Verify, TheGraphsThatShipAreSound) {
   for (const char* name : {"paper.json", "lightloom.json", "stages.json", "reference.json"}) {
     for (const bool dynamic : {false, true}) {
