@@ -14,8 +14,18 @@ Port optional_image(std::string name, Format format, std::string doc) {
   return port;
 }
 
+/// What the pass did, for who measures it.
+Port counts_output() {
+  Port port = image_output_like("counts", Format::rg32_uint, "surface",
+                                "r: rays that were marched through the grid for all paths of the pixel, those to "
+                                "lights included; g: distances that they read, one a step. Costs nothing unless "
+                                "something reads it");
+  port.bypass = Bypass{};
+  return port;
+}
+
 std::vector<Port> ports() {
-  return with_light_outputs(
+  std::vector<Port> result = with_light_outputs(
       {surface_input("surface", "first hits; one path tree starts at each pixel"),
        voxels_input("voxels", "what the paths meet after the first hit"),
        same_size_as("voxels", volume_input("distance",
@@ -23,6 +33,8 @@ std::vector<Port> ports() {
                                            "capped")),
        optional_image("faces", Format::rg32_uint, "emissive_faces.faces; what `nee` voxel_faces draws from"),
        optional_image("power", Format::r32_uint, "emissive_faces.power; what `emitter_area` surface compares with")});
+  result.push_back(counts_output());
+  return result;
 }
 
 std::vector<Param> params() {

@@ -20,12 +20,15 @@ uniform texture3D voxels_albedo;
 uniform texture3D voxels_normal;
 uniform texture3D voxels_material;
 uniform texture3D distance;
+uniform writeonly uimage2D out_counts;
 
 layout(push_constant) uniform Params {
   uint paths;
   uint bounces;
   float regularization;
 };
+
+layout(constant_id = 3) const bool counts_wanted = false;
 
 // Voxel normals are 0.8 degrees off and tangents up to 10: a sharper lobe would only turn that into speckle.
 const float kVoxelMinimumAlpha = 0.03;
@@ -122,4 +125,5 @@ void main() {
     for (key.path = 0u; key.path < paths; ++key.path) add_path(sum, first, trace_path(grid, first, key));
   }
   store_light(pixel, sum, paths, lit);
+  if (counts_wanted) imageStore(out_counts, pixel, uvec4(rays_marched, steps_marched, 0u, 0u));
 }

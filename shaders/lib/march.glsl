@@ -18,6 +18,10 @@ layout(constant_id = 23) const uint march = 1u;
 
 const float kFarAway = 1e30;   // longer than any ray
 
+// Rays marched so far by this invocation, and distances that they read. Whoever stores them pays for them.
+uint rays_marched = 0u;
+uint steps_marched = 0u;
+
 struct MarchHit {
   bool hit;
   ivec3 voxel;
@@ -80,6 +84,7 @@ MarchHit march_spheres(texture3D distance_field, vec3 origin, vec3 direction, fl
     ivec3 voxel = ivec3(floor(position));
     int empty = 1;
     if (within(voxel, size)) {
+      ++steps_marched;
       empty = voxel_distance(distance_field, voxel);
       if (empty == 0) return MarchHit(true, voxel, t, entry_face(voxel, origin, direction));
     }
@@ -105,6 +110,7 @@ MarchHit march_cubes(texture3D distance_field, vec3 origin, vec3 direction, floa
   if (axis >= 0) voxel[axis] = forward[axis] ? 0 : size[axis] - 1;
   int limit = size.x + size.y + size.z + 8;
   for (int step_count = 0; step_count < limit; ++step_count) {
+    ++steps_marched;
     int empty = voxel_distance(distance_field, voxel);
     if (empty == 0) {
       ivec3 face = axis >= 0 ? face_towards(axis, direction) : entry_face(voxel, origin, direction);
@@ -128,6 +134,7 @@ MarchHit march_cubes(texture3D distance_field, vec3 origin, vec3 direction, floa
 }
 
 MarchHit march_ray(texture3D distance_field, vec3 origin, vec3 direction, float end) {
+  ++rays_marched;
   return march == kMarchSphere ? march_spheres(distance_field, origin, direction, end)
                                : march_cubes(distance_field, origin, direction, end);
 }

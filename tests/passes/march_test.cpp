@@ -157,6 +157,7 @@ struct Crossing {
   glm::ivec3 voxel{0};
   double t = 0;
   int axis = -1;  ///< -1: the ray starts in the voxel
+  int steps = 1;  ///< voxels looked at, this one included
 };
 
 /// First occupied voxel in double precision: voxel after voxel (Amanatides and Woo 1987) from where the ray enters the
@@ -191,6 +192,7 @@ std::optional<Crossing> exact_hit(const image::HostImage& albedo, const Ray& ray
     for (int a = 0; a < 3; ++a)
       if (a != at.axis && (exits[a] - at.t) * std::abs(ray.direction[a]) < kTie) tied = true;
     at.voxel[at.axis] += ray.direction[at.axis] > 0 ? 1 : -1;
+    ++at.steps;
   }
   tied = tied || at.t - end < kTie;
   return std::nullopt;
@@ -262,6 +264,34 @@ TEST_P(ExactMarch, EmptyAndFullGridsEnd) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, ExactMarch, testing::Values("cube_exit", "dda"),
                          [](const testing::TestParamInfo<const char*>& mode) { return std::string(mode.param); });
+
+/// Distances read by the ray of a texel.
+double steps_at(const Images& images, uint32_t x, uint32_t y) {
+  return images.at("face").at(x, y, 0, 3);
+}
+
+double total_steps(const Images& images) {
+  double sum = 0;
+  for (uint32_t y = 0; y < kHeight; ++y)
+    for (uint32_t x = 0; x < kWidth; ++x) sum += steps_at(images, x, y);
+  return sum;
+}
+
+TEST_F(March, CountsTheVoxelsThatItLooksAt) {
+  const Images dda = run_march("dda", kClutter, 4, 1e6);
+  int compared = 0;
+  for (uint32_t y = 0; y < kHeight; ++y)
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      bool tied = false;
+      const std::optional<Crossing> expected = exact_hit(dda.at("voxels.voxels.albedo"), ray_at(dda, x, y), 1e6, tied);
+      if (tied || !expected) continue;
+      ASSERT_EQ(steps_at(dda, x, y), expected->steps) << x << " " << y;
+      ++compared;
+    }
+  EXPECT_GT(compared, 2000);
+  EXPECT_LE(total_steps(run_march("cube_exit", kClutter, 1, 1e6)), total_steps(dda));
+  EXPECT_LT(total_steps(run_march("cube_exit", kClutter, 15, 1e6)), 0.5 * total_steps(dda));
+}
 
 TEST_F(March, SphereEntersThroughTheFaceThatTheRayMeets) {
   const Images images = run_march("sphere", kClutter, 4, 1e6);

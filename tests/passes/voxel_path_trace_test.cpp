@@ -65,6 +65,33 @@ TEST_F(VoxelPathTrace, MirrorReflectsTheSky) {
   expect_every_pixel(trace(scene, R"("paths": 1)"), 2, 2e-3);
 }
 
+/// Over a convex floor every path marches one ray, which leaves the grid.
+TEST_F(VoxelPathTrace, CountsTheRaysOfAllPathsAndChangesNothing) {
+  scene::Scene scene = make_quad_scene({floor_quad()}, {lambertian(glm::vec3(0.5f))}, above_floor());
+  scene.environment.radiance = glm::vec3(3);
+  scene.features.environment = true;
+  for (const uint32_t paths : {1U, 7U}) {
+    const std::string params = R"("paths": )" + std::to_string(paths);
+    const std::string text = graph_text(kSize, kSize, kSize, kSize, trace_passes(32, params),
+                                        R"("radiance": "trace.radiance", "counts": "trace.counts")");
+    GraphRunOptions options;
+    options.seed = 1;
+    const Images images = run_graph(text, scene, options).front();
+    for (uint32_t y = 0; y < kSize; ++y)
+      for (uint32_t x = 0; x < kSize; ++x) {
+        ASSERT_EQ(images.at("counts").at(x, y, 0, 0), paths) << x << " " << y;
+        ASSERT_GE(images.at("counts").at(x, y, 0, 1), paths) << x << " " << y;
+      }
+    EXPECT_EQ(images.at("radiance").texels, trace(scene, params).at("radiance").texels);
+  }
+  scene.environment.radiance = glm::vec3(0);
+  scene.features.environment = false;
+  const std::string dark = graph_text(kSize, kSize, kSize, kSize, trace_passes(32, R"("paths": 3, "bounces": 0)"),
+                                      R"("counts": "trace.counts")");
+  const Images images = run_graph(dark, scene).front();
+  for (const std::byte byte : images.at("counts").texels) ASSERT_EQ(byte, std::byte{0});
+}
+
 TEST_F(VoxelPathTrace, BackgroundAndUnlitSurfacesStayBlack) {
   scene::Material unlit = lambertian(glm::vec3(1));
   unlit.unlit = true;

@@ -50,5 +50,5 @@ void main() {
   imageStore(out_origin, pixel, vec4(origin, 0.0));
   imageStore(out_direction, pixel, vec4(direction, entry_distance(hit, origin, direction)));
   imageStore(out_hit, pixel, vec4(vec3(hit.voxel), hit.hit ? hit.t : -1.0));
-  imageStore(out_face, pixel, vec4(vec3(hit.face), 0.0));
+  imageStore(out_face, pixel, vec4(vec3(hit.face), float(steps_marched)));
 }
