@@ -5,28 +5,16 @@
 
 #include "framework/base/progress.hpp"
 #include "framework/cli/commands.hpp"
-#include "framework/cli/graph_options.hpp"
 #include "framework/cli/messages.hpp"
+#include "framework/cli/picture_options.hpp"
 #include "framework/run/render.hpp"
 
 namespace lightloom::cli {
 namespace {
 
-constexpr double kMostFramesPerSecond = 1e6;
-/// Keeps the number of frames, and six digits in file names, in reach.
-constexpr uint32_t kLastFrame = 999'999;
-
 struct RenderOptions {
-  std::filesystem::path graph;
-  std::filesystem::path scene;
+  PictureOptions picture;
   std::filesystem::path out;
-  GraphOptions changes;
-  std::string camera;
-  std::filesystem::path camera_path;
-  Range frames;
-  uint32_t seed = 0;
-  double frames_per_second = 30;
-  std::optional<double> time;
   std::string dump_format = "exr";
   uint32_t checkpoint_every = 0;
   bool resume = false;
@@ -37,25 +25,12 @@ struct RenderOptions {
 
 run::RenderRequest make_request(const RenderOptions& options, const CommandContext& context,
                                 const std::vector<std::string>& arguments) {
-  run::RenderRequest request;
-  request.plugins = context.plugins;
-  request.shaders = run::shader_folders_with(context.plugins);
-  request.graph = options.graph;
-  request.scene = options.scene;
-  request.link = options.changes.link_options();
-  request.compile = options.changes.compile_options();
-  request.camera = options.camera;
-  request.camera_path = options.camera_path;
+  run::RenderRequest request = options.picture.request(context);
   request.dump_format = options.dump_format == "npy" ? run::DumpFormat::npy : run::DumpFormat::exr;
   request.share_memory = !options.no_alias;
-  request.seed = options.seed;
-  request.first_frame = options.frames.first;
-  request.last_frame = options.frames.last;
-  request.frames_per_second = options.frames_per_second;
-  request.frozen_time = options.time;
   request.checkpoint_every = options.checkpoint_every;
   request.resume = options.resume;
-  request.out = options.out.empty() ? std::filesystem::path("out") / options.graph.stem() : options.out;
+  request.out = options.out.empty() ? std::filesystem::path("out") / options.picture.graph.stem() : options.out;
   request.device = {options.device, options.validate};
   request.command_line = {"lightloom"};
   request.command_line.insert(request.command_line.end(), arguments.begin(), arguments.end());
@@ -101,12 +76,6 @@ ExitCode render(const RenderOptions& options, const CommandContext& context,
   return ExitCode::done;
 }
 
-std::string check_frames(std::string_view text) {
-  Range frames;
-  if (std::string problem = parse_value(text, frames); !problem.empty()) return problem;
-  return frames.last <= kLastFrame ? "" : "frames end at " + std::to_string(kLastFrame);
-}
-
 }  // namespace
 
 void add_render_command(Command& program, const CommandContext& context, const std::vector<std::string>& arguments) {
@@ -115,25 +84,8 @@ void add_render_command(Command& program, const CommandContext& context, const s
       "Writes each frame's outputs (radiance.FFFF.exr, image.FFFF.png), the dumped values (dumps/FFFF/PASS.PORT.exr or "
       ".npy) and run.json, which records all that the pictures depend on and the time of each pass.");
   auto options = std::make_shared<RenderOptions>();
-  command.positional("GRAPH", options->graph, "Graph file (JSON)").required();
-  command.option("--scene", options->scene, "Scene: .gltf, .glb or .scene.json").required().group("Scene and frames");
-  command.option("--camera", options->camera, "Camera of the scene by name; the first one unless given")
-      .placeholder("NAME")
-      .group("Scene and frames");
-  command.option("--camera-path", options->camera_path, "Keyframes that the camera follows instead (JSON)")
-      .group("Scene and frames");
-  command.option("--frames", options->frames, "Frames to render, one after another; both ends included")
-      .check(check_frames)
-      .group("Scene and frames");
-  command.option("--fps", options->frames_per_second, "Frames a second of scene time, for animation")
-      .range(1e-6, kMostFramesPerSecond)
-      .group("Scene and frames");
-  command.option("--time", options->time, "Hold the scene and the camera still as they are at this time, in seconds")
-      .placeholder("SECONDS")
-      .range(0, 1e6)
-      .group("Scene and frames");
-  command.option("--seed", options->seed, "Seed of all random numbers").group("Scene and frames");
-  options->changes.add_to(command);
+  options->picture.add_graph_to(command);
+  options->picture.add_to(command);
   command.option("--dump-format", options->dump_format, "How --dump writes images: OpenEXR, or NumPy arrays (y, x, c)")
       .choices({"exr", "npy"});
   command.option("-o,--out", options->out, "Run folder, made if missing")

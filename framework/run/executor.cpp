@@ -1,6 +1,7 @@
 #include "framework/run/executor.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "framework/gpu/transfer.hpp"
@@ -25,7 +26,7 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
     : device_(device),
       plan_(checked(std::move(plan), device)),
       images_(device, plan_, options.share_memory),
-      readback_(device, plan_),
+      readback_(device, plan_, options.single_texels),
       host_passes_(device, plan_),
       scene_(device, scene,
              {.camera = options.camera,
@@ -48,15 +49,26 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
 }
 
 FrameResult Executor::run_frame(uint32_t frame) {
-  const FrameConditions conditions = scene_.prepare(frame);
+  conditions_ = scene_.prepare(frame);
+  FrameResult result = run(frame);
+  remember(frame);
+  return result;
+}
+
+FrameResult Executor::repeat_frame() {
+  if (!started_) throw std::logic_error("no frame has run yet that could be repeated");
+  --frame_count_;
+  return run(recent_frames_.back());
+}
+
+FrameResult Executor::run(uint32_t frame) {
   descriptors_.reset();
   gpu::CommandSession session(device_);
   record_frame(session);
   session.submit();
-  FrameResult result = collect(frame, conditions);
+  FrameResult result = collect(frame, conditions_);
   ++frame_count_;
   started_ = true;
-  remember(frame);
   return result;
 }
 
@@ -71,14 +83,31 @@ ExecutorState Executor::save() const {
           .layers = save_layers(device_, plan_.graph, images_, frame_count_)};
 }
 
-void Executor::restore(const ExecutorState& state) {
+void Executor::run_prologue() {
   device_.run_commands([&](VkCommandBuffer commands) {
     record_prologue(commands);
     gpu::record_full_barrier(commands);
   });
+  initialised_ = true;
+}
+
+void Executor::restore(const ExecutorState& state) {
+  run_prologue();
   restore_layers(device_, plan_.graph, images_, state.frame_count, state.layers);
+  pass_through(state.recent_frames);
+  frame_count_ = state.frame_count;
+}
+
+void Executor::start_at(const FrameStart& start) {
+  run_prologue();
+  give_layers(device_, plan_.graph, images_, start);
+  pass_through(start.recent_frames);
+  frame_count_ = start.frame_count;
+}
+
+void Executor::pass_through(const std::vector<uint32_t>& frames) {
   // The scene's own history, views and positions, follows from the numbers of the frames.
-  for (const uint32_t frame : state.recent_frames) {
+  for (const uint32_t frame : frames) {
     static_cast<void>(scene_.prepare(frame));
     device_.run_commands([&](VkCommandBuffer commands) {
       gpu::record_full_barrier(commands);
@@ -87,7 +116,6 @@ void Executor::restore(const ExecutorState& state) {
     });
     remember(frame);
   }
-  frame_count_ = state.frame_count;
 }
 
 void Executor::record_prologue(VkCommandBuffer commands) const {
@@ -98,7 +126,8 @@ void Executor::record_prologue(VkCommandBuffer commands) const {
 void Executor::record_frame(gpu::CommandSession& session) {
   const bool first = !started_;
   timestamps_.reset(session.get());
-  if (frame_count_ == 0) record_prologue(session.get());
+  if (!initialised_) record_prologue(session.get());
+  initialised_ = true;
   record_barriers(session.get(), plan_.frame_start);
   scene_.record_upload(session.get());
   record_barriers(session.get(), plan_.inputs_ready);

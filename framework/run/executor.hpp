@@ -33,6 +33,7 @@ struct ExecutorOptions {
   bool share_memory = true;                          ///< values that are not live at the same time share memory
   /// What host passes derive from the scene, to be shared by executors on the same one; empty: the executor's own.
   std::shared_ptr<SceneMemo> memo = nullptr;
+  bool single_texels = false;  ///< of what is read back one texel each comes to the host: Executor::look_at
 };
 
 /// Turns a plan into Vulkan objects and runs frames. Owns the images and history rings; passes own nothing.
@@ -50,6 +51,15 @@ class Executor {
   /// Goes on from there, before the first frame, as if this executor had run those frames with the same plan, scene and
   /// options: the next ones have the same bits. Throws Error(invalid_input) for a state of another graph.
   void restore(const ExecutorState& state);
+  /// Begins, before the first frame, at one that others came before, with the layers that it reads given.
+  void start_at(const FrameStart& start);
+  /// Runs the last frame again, with the same conditions and the same layers: the same bits. What a plan runs once does
+  /// not run again.
+  [[nodiscard]] FrameResult repeat_frame();
+
+  /// With ExecutorOptions::single_texels: which texel of each value, by its id, is read back from now on; the first
+  /// texel before.
+  void look_at(const std::vector<VkOffset3D>& texels) { readback_.look_at(texels); }
 
   /// What had to be changed in the scene for the device.
   [[nodiscard]] const std::vector<std::string>& scene_warnings() const { return scene_.warnings(); }
@@ -59,6 +69,10 @@ class Executor {
   [[nodiscard]] uint64_t value_bytes() const { return images_.bytes(); }
 
  private:
+  /// Poses the scene as in these frames, so that it remembers them.
+  void pass_through(const std::vector<uint32_t>& frames);
+  void run_prologue();
+  [[nodiscard]] FrameResult run(uint32_t frame);
   void remember(uint32_t frame);
   void record_frame(gpu::CommandSession& session);
   void record_prologue(VkCommandBuffer commands) const;
@@ -85,7 +99,9 @@ class Executor {
   gpu::TimestampPool timestamps_;
   std::map<std::string, double, std::less<>> host_milliseconds_;  ///< by pass, of its last run
   uint64_t frame_count_ = 0;                                      ///< with those before `restore`
+  bool initialised_ = false;                                      ///< the prologue has run
   bool started_ = false;                                          ///< has run a frame itself
+  FrameConditions conditions_;                                    ///< of the last frame that it has run itself
   std::vector<uint32_t> recent_frames_;                           ///< numbers, oldest first, at most kHistoryLimit
 };
 

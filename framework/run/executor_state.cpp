@@ -25,9 +25,9 @@ std::vector<LayerKey> layers_to_keep(const Graph& graph) {
   return keys;
 }
 
-void upload_layer(gpu::Device& device, const ValueLayer& layer, const SavedLayer& saved) {
-  const gpu::Buffer staging(device, saved.texels.size(), 0, gpu::MemoryKind::upload, "restored " + saved.value);
-  std::memcpy(staging.mapped().data(), saved.texels.data(), saved.texels.size());
+void upload_layer(gpu::Device& device, const ValueLayer& layer, const std::vector<std::byte>& texels) {
+  const gpu::Buffer staging(device, texels.size(), 0, gpu::MemoryKind::upload, "texels of " + layer.image->spec().name);
+  std::memcpy(staging.mapped().data(), texels.data(), texels.size());
   device.run_commands([&](VkCommandBuffer commands) {
     gpu::record_full_barrier(commands);
     gpu::record_buffer_to_image(commands, staging.get(), 0, *layer.image, gpu::whole_level(*layer.image, layer.layer),
@@ -61,7 +61,18 @@ void restore_layers(gpu::Device& device, const Graph& graph, const ValueImages& 
   }
   if (!same) throw Error(ExitCode::invalid_input, "the saved histories are not those of this graph");
   for (size_t i = 0; i < keys.size(); ++i)
-    upload_layer(device, images.layer(keys[i].value, keys[i].age, frame_count - 1), layers[i]);
+    upload_layer(device, images.layer(keys[i].value, keys[i].age, frame_count - 1), layers[i].texels);
+}
+
+void give_layers(gpu::Device& device, const Graph& graph, const ValueImages& images, const FrameStart& start) {
+  for (const GivenLayer& given : start.layers) {
+    const Value& value = graph.values.at(given.value);
+    if (given.texels.size() != byte_size(value.desc))
+      throw Error(ExitCode::invalid_input,
+                  "what is given as " + value_name(value) + " has " + std::to_string(given.texels.size()) +
+                      " bytes, and " + to_string(value.desc) + " takes " + std::to_string(byte_size(value.desc)));
+    upload_layer(device, images.layer(given.value, given.age, start.frame_count), given.texels);
+  }
 }
 
 }  // namespace lightloom::run

@@ -2,8 +2,10 @@
 
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "framework/gpu/buffer.hpp"
+#include "framework/gpu/transfer.hpp"
 #include "framework/image/host_image.hpp"
 #include "framework/run/value_images.hpp"
 
@@ -12,7 +14,11 @@ namespace lightloom::run {
 /// Read-back buffers for every copy of a plan.
 class Readback {
  public:
-  Readback(const gpu::Device& device, const Plan& plan);
+  /// With `single_texels` only one texel of each value is copied, and the buffers are no larger.
+  Readback(const gpu::Device& device, const Plan& plan, bool single_texels = false);
+
+  /// Which texel, by value id; the first one before.
+  void look_at(const std::vector<VkOffset3D>& texels) { texels_ = texels; }
 
   /// Records the copy; its barriers are the plan's.
   void record(VkCommandBuffer commands, const Observation& observation, const ValueImages& images,
@@ -26,6 +32,10 @@ class Readback {
   using Key = std::pair<ValueId, uint32_t>;
   void add(const gpu::Device& device, const Graph& graph, const Observation& observation);
 
+  [[nodiscard]] gpu::ImageRegion region(ValueId value, const ValueLayer& layer) const;
+
+  bool single_texels_;
+  std::vector<VkOffset3D> texels_;
   std::map<Key, gpu::Buffer> buffers_;
   std::map<Key, ImageDesc> descs_;
 };
