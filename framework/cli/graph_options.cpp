@@ -24,6 +24,10 @@ void GraphOptions::add_to(Command& command) {
   group(command.flag("--general", general,
                      "Model all that any scene could need, not only what this one requires: every pass whatever its "
                      "'when', shaders with every feature, nothing hoisted; the pictures are the same"));
+  group(command.option("--sync", sync,
+                       "Barriers: only those that the accesses demand, or everything before each pass done before it "
+                       "begins; the pictures are the same"))
+      .choices({"minimal", "conservative"});
   group(command.option("--size", size, "View size in pixels, instead of the graph's"));
   group(command.option("--trace-size", trace_size, "Size in pixels at which is traced, instead of the graph's"));
 }
@@ -44,7 +48,9 @@ LinkOptions GraphOptions::link_options() const {
 }
 
 CompileOptions GraphOptions::compile_options() const {
-  return {};
+  CompileOptions options;
+  if (sync == "conservative") options.sync = SyncPolicy::conservative;
+  return options;
 }
 
 }  // namespace lightloom::cli

@@ -22,6 +22,7 @@ struct GraphOptions {
   std::optional<Size> trace_size;
   bool no_hoist = false;
   bool general = false;
+  std::string sync = "minimal";
 
   void add_to(Command& command);
   [[nodiscard]] LinkOptions link_options() const;

@@ -17,7 +17,7 @@ constexpr VkPipelineStageFlags2 kCopy = VK_PIPELINE_STAGE_2_COPY_BIT;
 constexpr VkPipelineStageFlags2 kCopyOrClear = VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT;
 constexpr VkImageLayout kGeneral = VK_IMAGE_LAYOUT_GENERAL;
 
-constexpr std::array<AccessInfo, 13> kAccesses{{
+constexpr std::array<AccessInfo, 14> kAccesses{{
     {"none", VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED, false, false},
     {"compute_sampled_read", kCompute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, kGeneral, true, false},
     {"compute_storage_read", kCompute, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, kGeneral, true, false},
@@ -40,8 +40,10 @@ constexpr std::array<AccessInfo, 13> kAccesses{{
     {"frame_input_read", kAnyShader,
      VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, kGeneral,
      true, false},
+    {"anything", VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+     kGeneral, true, true},
 }};
-static_assert(kAccesses.size() == static_cast<std::size_t>(Access::frame_input_read) + 1);
+static_assert(kAccesses.size() == static_cast<std::size_t>(Access::anything) + 1);
 
 }  // namespace
 

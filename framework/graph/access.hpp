@@ -23,6 +23,7 @@ enum class Access : uint8_t {
   transfer_write,  ///< clear, upload, output of a host pass
   host_read,
   frame_input_read,  ///< scene and frame buffers, read by any shader stage
+  anything,          ///< whatever the device does; the two ends of a full barrier
 };
 
 struct AccessInfo {

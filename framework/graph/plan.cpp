@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "framework/graph/schedule.hpp"
+#include "framework/graph/serialise.hpp"
 #include "framework/graph/synchronise.hpp"
 
 namespace lightloom {
@@ -21,6 +22,15 @@ std::vector<std::pair<ValueId, uint32_t>> observed(const Graph& graph) {
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
+}
+
+/// What frames go on from before there were any: constants, rings, and what their passes keep.
+void add_clears(Plan& plan) {
+  for (ValueId id = 0; id < plan.graph.values.size(); ++id) {
+    const Value& value = plan.graph.values[id];
+    if (value.constant || value.history > 0 || value.persistent)
+      plan.prologue.push_back({id, value.constant.value_or(ClearColor{0, 0, 0, 0})});
+  }
 }
 
 void add_scans(const Graph& graph, std::vector<PlanStep>& steps) {
@@ -41,6 +51,15 @@ std::string_view to_string(Hazard hazard) {
       break;
   }
   return "write after write";
+}
+
+std::string_view to_string(SyncPolicy policy) {
+  return policy == SyncPolicy::conservative ? "conservative" : "minimal";
+}
+
+std::string barrier_subject(const Graph& graph, ValueId value) {
+  if (value == kFrameInputs) return "frame inputs";
+  return value == kEverything ? "everything" : value_name(graph.values[value]);
 }
 
 Access access_of(Observer observer) {
@@ -72,7 +91,11 @@ Plan compile(const Graph& graph, const CompileOptions& options) {
     add_scans(graph, plan.once);
     add_scans(graph, plan.steps);
   }
-  synchronise(plan);
+  add_clears(plan);
+  if (options.sync == SyncPolicy::conservative)
+    serialise(plan);
+  else
+    synchronise(plan);
   return plan;
 }
 

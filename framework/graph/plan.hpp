@@ -16,6 +16,10 @@ enum class Hazard : uint8_t { read_after_write, write_after_read, write_after_wr
 
 /// Stands for the scene and frame buffers, uploaded by transfer at the start of a frame.
 constexpr ValueId kFrameInputs = std::numeric_limits<ValueId>::max();
+/// Stands for all memory: of the barriers of SyncPolicy::conservative.
+constexpr ValueId kEverything = kFrameInputs - 1;
+/// What a barrier is about: the value's name, "frame inputs" or "everything".
+[[nodiscard]] std::string barrier_subject(const Graph& graph, ValueId value);
 
 /// A memory dependency between all earlier `from` accesses and all later `to` accesses to all layers of a value. No
 /// layout changes: images live in GENERAL.
@@ -80,8 +84,9 @@ struct Plan {
 /// How the plan keeps one access from meeting another.
 enum class SyncPolicy : uint8_t {
   minimal,       ///< only the barriers that the accesses demand
-  conservative,  ///< everything before a step is done before the step begins
+  conservative,  ///< everything before a step or an observation is done before it begins
 };
+[[nodiscard]] std::string_view to_string(SyncPolicy policy);  ///< as on the command line
 
 /// In which order passes run; any of them keeps every producer before its readers of the same frame.
 enum class PassOrder : uint8_t {

@@ -44,7 +44,7 @@ class PlanHasher {
   }
 
   void value(ValueId id) {
-    if (id == kFrameInputs) return hasher_.text("frame inputs");
+    if (id == kFrameInputs || id == kEverything) return hasher_.text(barrier_subject(plan_.graph, id));
     const Value& value = plan_.graph.values[id];
     hasher_.text(value_name(value));
     hasher_.text(to_string(value.desc));

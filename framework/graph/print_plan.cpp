@@ -47,7 +47,7 @@ class Printer {
 
  private:
   std::string name(ValueId value) const {
-    return value == kFrameInputs ? "frame inputs" : value_name(graph_.values[value]);
+    return barrier_subject(graph_, value);
   }
 
   void prologue() {
@@ -79,9 +79,9 @@ class Printer {
   void barriers(const std::vector<Barrier>& list) {
     std::vector<std::pair<std::string, std::vector<std::string>>> lines;  // what follows the name, names
     for (const Barrier& barrier : list) {
-      std::string port = "frame inputs";
+      std::string port = name(barrier.value);
       std::string part;
-      if (barrier.value != kFrameInputs) {
+      if (barrier.value < graph_.values.size()) {
         port = graph_.values[barrier.value].pass + "." + graph_.values[barrier.value].port;
         part = graph_.values[barrier.value].part;
       }

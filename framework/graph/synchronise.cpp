@@ -133,7 +133,6 @@ class Synchroniser {
   void initialise(ValueId id, const Round& round) {
     const Value& value = plan_.graph.values[id];
     if (!value.constant && value.history == 0 && !value.persistent) return;
-    plan_.prologue.push_back({id, value.constant.value_or(ClearColor{0, 0, 0, 0})});
     const auto meets_clear = [&](const Reader& reader) {
       return value.constant || reader.position < read_barrier_reader(round)->position;
     };

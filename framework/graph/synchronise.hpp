@@ -4,7 +4,7 @@
 
 namespace lightloom {
 
-/// Fills every barrier of a plan whose steps and observations are in place.
+/// Fills every barrier of a plan whose clears, steps and observations are in place.
 ///
 /// Model: frames follow one another on one queue, the same commands each. Every value has one write a frame, so its
 /// life is a fixed round: write, reads of this frame's layer, reads of it as history in later frames, and,

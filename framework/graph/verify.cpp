@@ -1,6 +1,7 @@
 #include "framework/graph/verify.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "framework/graph/verify_trace.hpp"
@@ -23,17 +24,34 @@ constexpr VkAccessFlags2 kWriteBits = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_
                                       VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
                                       VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 
+/// All stages and accesses that a table row stands for: the host is no command.
+AccessInfo spelled_out(Access access) {
+  AccessInfo info = access_info(access);
+  if ((info.stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0) info.stages = ~VK_PIPELINE_STAGE_2_HOST_BIT;
+  constexpr VkAccessFlags2 kHost = VK_ACCESS_2_HOST_READ_BIT | VK_ACCESS_2_HOST_WRITE_BIT;
+  if ((info.access & VK_ACCESS_2_MEMORY_WRITE_BIT) != 0) info.access = ~kHost;
+  return info;
+}
+
 /// How far one access has come by the barriers after it.
 class Reach {
  public:
   explicit Reach(const AccessInfo& source) : source_(source) {}
 
-  void pass(const AccessInfo& from, const AccessInfo& to) {
-    const bool direct = within(source_.stages, from.stages);
-    if (!direct && (stages_ & from.stages) == 0) return;
-    stages_ |= to.stages;
-    available_ = available_ || (direct && within(source_.access & kWriteBits, from.access));
-    if (available_) visible_.emplace_back(to.stages, to.access);
+  /// Barriers recorded together: none of them carries on what another one brings.
+  void pass(std::span<const Event> batch) {
+    const VkPipelineStageFlags2 stages_before = stages_;
+    const bool available_before = available_;
+    for (const Event& event : batch) {
+      const AccessInfo from = spelled_out(event.from);
+      const AccessInfo to = spelled_out(event.access);
+      const bool direct = within(source_.stages, from.stages);
+      if (!direct && (stages_before & from.stages) == 0) continue;
+      stages_ |= to.stages;
+      const bool makes_available = direct && within(source_.access & kWriteBits, from.access);
+      available_ = available_ || makes_available;
+      if (available_before || makes_available) visible_.emplace_back(to.stages, to.access);
+    }
   }
 
   /// Is the access done, and its writes available, when something begins that waits for `stages` and `access`?
@@ -91,7 +109,7 @@ class Judge {
 
   /// Follows what the piece holds.
   void contents(const Trace& trace) {
-    constexpr ValueId kNobody = kFrameInputs - 1;
+    constexpr ValueId kNobody = kEverything;
     ValueId holder = kNobody;
     int content = kUndefined;
     for (const Event& event : trace) {
@@ -121,13 +139,11 @@ class Judge {
     Reach reach(source);
     for (std::size_t i = first + 1; i < trace.size(); ++i) {
       const Event& event = trace[i];
-      if (event.kind == Event::Kind::takeover && !taken_over(trace, i, reach)) {
-        complain(event.value, "takes memory over before " + trace[first].who + " (" + std::string(source.name) +
-                                  ") is done with " + name(trace[first].value));
-        return;
-      }
       if (event.kind != Event::Kind::access) {
-        reach.pass(access_info(event.from), access_info(event.access));
+        const std::span<const Event> batch = batch_from(trace, i);
+        if (!taken_over(trace, first, batch, reach)) return;
+        reach.pass(batch);
+        i += batch.size() - 1;
         continue;
       }
       const AccessInfo& target = access_info(event.access);
@@ -139,6 +155,13 @@ class Judge {
                                 (event.frame != trace[first].frame ? " from frame to frame" : ""));
       return;
     }
+  }
+
+  static std::span<const Event> batch_from(const Trace& trace, std::size_t begin) {
+    std::size_t end = begin + 1;
+    while (end < trace.size() && trace[end].kind != Event::Kind::access && trace[end].batch == trace[begin].batch)
+      ++end;
+    return std::span(trace).subspan(begin, end - begin);
   }
 
   /// Its first access must wait for the change of layout, by one of the takeovers recorded together.
@@ -153,20 +176,24 @@ class Judge {
     }
   }
 
-  /// The change of layout writes, behind all that the takeovers recorded together wait for.
-  static bool taken_over(const Trace& trace, std::size_t at, const Reach& reach) {
-    VkPipelineStageFlags2 stages = 0;
-    VkAccessFlags2 access = 0;
-    const auto together = [&](const Event& event) {
-      return event.kind == Event::Kind::takeover && event.value == trace[at].value;
-    };
-    std::size_t begin = at;
-    while (begin > 0 && together(trace[begin - 1])) --begin;
-    for (std::size_t i = begin; i < trace.size() && together(trace[i]); ++i) {
-      stages |= access_info(trace[i].from).stages;
-      access |= access_info(trace[i].from).access;
+  /// The change of layout writes, behind all that the takeovers of its value in this batch wait for.
+  bool taken_over(const Trace& trace, std::size_t first, std::span<const Event> batch, const Reach& reach) {
+    for (const Event& taker : batch) {
+      if (taker.kind != Event::Kind::takeover) continue;
+      VkPipelineStageFlags2 stages = 0;
+      VkAccessFlags2 access = 0;
+      for (const Event& event : batch) {
+        if (event.kind != Event::Kind::takeover || event.value != taker.value) continue;
+        stages |= access_info(event.from).stages;
+        access |= access_info(event.from).access;
+      }
+      if (reach.ends_before(stages, access)) continue;
+      complain(taker.value, "takes memory over before " + trace[first].who + " (" +
+                                std::string(access_info(trace[first].access).name) + ") is done with " +
+                                name(trace[first].value));
+      return false;
     }
-    return reach.ends_before(stages, access);
+    return true;
   }
 
   const Plan& plan_;

@@ -132,13 +132,19 @@ class Player {
   }
 
   void barriers(const std::vector<Barrier>& list) {
+    ++batch_;
     for (const Barrier& barrier : list) {
       ++barriers_;
       const Event event{.kind = barrier.takes_over ? Event::Kind::takeover : Event::Kind::barrier,
                         .value = barrier.value,
                         .from = barrier.from,
                         .access = barrier.to,
+                        .batch = batch_,
                         .who = {}};
+      if (barrier.value == kEverything) {
+        for (auto& [piece, trace] : traces_) trace.push_back(event);
+        continue;
+      }
       for (int layer = 0; layer < map_.layers(barrier.value); ++layer) {
         for (const Piece& piece : map_.pieces(barrier.value, layer)) traces_[piece].push_back(event);
       }
@@ -149,6 +155,7 @@ class Player {
   const MemoryMap& map_;
   std::vector<bool> written_once_;
   std::map<Piece, Trace> traces_;
+  uint32_t batch_ = 0;
   uint64_t accesses_ = 0;
   uint64_t barriers_ = 0;
 };

@@ -18,6 +18,7 @@ struct Event {
   ValueId value = 0;
   Access from = Access::none;    ///< of a barrier
   Access access = Access::none;  ///< of an access, or what a barrier leads to
+  uint32_t batch = 0;            ///< barriers of one batch are recorded together, and none waits for another
   int frame = kPrologue;
   int content = kPrologue;  ///< reads: the frame whose write is expected
   std::string who;

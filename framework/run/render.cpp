@@ -52,6 +52,7 @@ Json run_record(const Run& run, const Executor& executor, const RunProgress& pro
   record["resumed_at"] = progress.resumed_at;
   record["frames_per_second"] = request.frames_per_second;
   record["frozen_time"] = request.frozen_time ? Json(*request.frozen_time) : Json();
+  record["sync"] = to_string(request.compile.sync);
   record["dump_format"] = to_string(request.dump_format);
   record["device"] = device_record(run.device.info());
   record["validation"] = run.device.validating();

@@ -29,6 +29,7 @@ VkImageUsageFlags usage_of(Access access) {
     case Access::transfer_write:
     case Access::host_read:
     case Access::frame_input_read:
+    case Access::anything:
       return 0;
   }
   return 0;

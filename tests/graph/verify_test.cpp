@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <utility>
 
 #include "framework/base/file.hpp"
 #include "framework/base/text.hpp"
@@ -158,13 +159,55 @@ TEST(Verify, ScannedPlansAreSound) {
   }
 }
 
+TEST(Verify, ConservativePlansAreSoundWithOneBarrierAtEachPlace) {
+  uint32_t caught = 0;
+  for (uint32_t seed = 0; seed < 40; ++seed) {
+    LinkOptions link;
+    if (seed % 2 == 1) link.captures = {"*"};
+    const Graph graph = toy::graph_of(toy::random_graph(seed, 12), link);
+    const Case one(compile(graph, {.sync = SyncPolicy::conservative, .scan = seed % 3 == 0}));
+    ASSERT_EQ(one.violations(), std::vector<std::string>{}) << "seed " << seed;
+    for (const PlanStep& step : one.plan.steps) {
+      const auto own = std::count_if(step.barriers.begin(), step.barriers.end(),
+                                     [](const Barrier& barrier) { return !barrier.takes_over; });
+      EXPECT_EQ(own, 1);
+    }
+    // Where the barrier of a neighbour serves as well, nothing is missing.
+    Case mutant = one;
+    for (PlanStep& step : mutant.plan.steps) {
+      const std::vector<Barrier> barriers = std::exchange(step.barriers, {});
+      caught += mutant.violations().empty() ? 0 : 1;
+      step.barriers = barriers;
+    }
+  }
+  EXPECT_GT(caught, 40u);
+}
+
+TEST(Verify, BarriersOfOneBatchDoNotCarryOn) {
+  Plan plan = plan_of(file(R"("s": {"type": "source"}, "f": {"type": "shade", "in": {"x": "s.a"}})", R"("o": "f.a")"));
+  ASSERT_TRUE(verify(plan).violations.empty());
+  std::vector<Barrier>& list = plan.steps[1].barriers;
+  const auto read = std::find_if(list.begin(), list.end(), [&](const Barrier& barrier) {
+    return value_name(plan.graph.values[barrier.value]) == "s.a";
+  });
+  ASSERT_NE(read, list.end());
+  ASSERT_EQ(read->to, Access::fragment_sampled_read);
+  // By way of the transfer: right in two batches, wrong in one.
+  const Barrier direct = *read;
+  read->to = Access::transfer_read;
+  list.push_back(direct);
+  list.back().from = Access::transfer_read;
+  EXPECT_FALSE(verify(plan).violations.empty());
+}
+
 TEST(Verify, TheGraphsThatShipAreSound) {
   for (const char* name : {"paper.json", "lightloom.json", "stages.json", "reference.json"}) {
     for (const bool dynamic : {false, true}) {
       LinkEnvironment scene = toy::environment(dynamic);
       scene.scene_features = {{"dynamic", dynamic}, {"emissive", true}, {"specular", true}};
-      const Case one(compile(toy::graph_of(read_text_file(source_dir() / "graphs" / name), {}, real_passes(), scene)));
-      EXPECT_EQ(one.violations(), std::vector<std::string>{}) << name;
+      const Graph graph = toy::graph_of(read_text_file(source_dir() / "graphs" / name), {}, real_passes(), scene);
+      for (const SyncPolicy policy : {SyncPolicy::minimal, SyncPolicy::conservative})
+        EXPECT_EQ(Case(compile(graph, {.sync = policy})).violations(), std::vector<std::string>{}) << name;
     }
   }
 }
