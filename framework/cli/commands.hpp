@@ -14,6 +14,7 @@ void add_render_command(Command& program, const CommandContext& context, const s
 void add_check_command(Command& program, const CommandContext& context);
 void add_plan_command(Command& program, const CommandContext& context);
 void add_passes_command(Command& program, const CommandContext& context);
+void add_schema_command(Command& program, const CommandContext& context);
 void add_scene_command(Command& program, const CommandContext& context);
 void add_brdf_command(Command& program, const CommandContext& context);
 void add_compare_command(Command& program, const CommandContext& context);

@@ -65,8 +65,9 @@ ExitCode print_verification(const Plan& plan, const PlannedSharing& planned, std
 ExitCode print(const PlanOptions& options, const CommandContext& context) {
   const std::optional<scene::Scene> scene = load_optional_scene(options.scene, context.err);
   Diagnostics diagnostics;
-  std::optional<Plan> plan = run::compile_graph(options.graph, context.registry, options.changes.link_options(),
-                                                scene ? &*scene : nullptr, diagnostics, options.changes.compile_options());
+  std::optional<Plan> plan =
+      run::compile_graph(options.graph, context.registry, options.changes.link_options(), scene ? &*scene : nullptr,
+                         diagnostics, options.changes.compile_options());
   print_diagnostics(context.err, diagnostics);
   if (!plan) return exit_code_of(diagnostics);
   if (!options.memory && !options.verify) {

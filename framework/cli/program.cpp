@@ -53,6 +53,7 @@ ExitCode run_program(const std::vector<std::string>& arguments, const CommandCon
     add_check_command(program, context);
     add_plan_command(program, context);
     add_passes_command(program, context);
+    add_schema_command(program, context);
     add_scene_command(program, context);
     add_brdf_command(program, context);
     add_compare_command(program, context);

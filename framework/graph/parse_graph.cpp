@@ -2,12 +2,11 @@
 
 #include "framework/base/json.hpp"
 #include "framework/base/text.hpp"
+#include "framework/graph/graph_keys.hpp"
 #include "framework/graph/graph_spec.hpp"
 
 namespace lightloom {
 namespace {
-
-constexpr int64_t kFormatVersion = 1;
 
 /// Turns the JSON tree into a GraphSpec; reports and leaves out what has the wrong form.
 class GraphReader {
@@ -16,9 +15,8 @@ class GraphReader {
 
   std::optional<GraphSpec> read(const JsonNode& root) {
     if (!expect(root, JsonKind::object, "a graph file") || !check_version(root)) return std::nullopt;
-    check_keys(root,
-               {"$schema", "lightloom", "name", "doc", "view", "trace", "params", "passes", "outputs", "variants"},
-               "a graph");
+    check_keys(root, kGraphKeys, "a graph");
+    if (const JsonNode* node = root.find("$schema")) read_text(*node, "'$schema'");
     if (const JsonNode* node = root.find("name")) spec_.name = read_text(*node, "'name'").text;
     if (const JsonNode* node = root.find("doc")) read_text(*node, "'doc'");
     if (const JsonNode* node = root.find("view")) read_size(*node, "'view'", spec_.view);
@@ -41,7 +39,8 @@ class GraphReader {
 
   bool check_version(const JsonNode& root) {
     const JsonNode* version = root.find("lightloom");
-    if (version != nullptr && version->kind == JsonKind::integer && version->integer == kFormatVersion) return true;
+    if (version != nullptr && version->kind == JsonKind::integer && version->integer == kGraphFormatVersion)
+      return true;
     if (version == nullptr) {
       diagnostics_.error("missing-key", root.where, "this is no graph file: the key 'lightloom' is missing",
                          "begin the file with \"lightloom\": 1");
@@ -51,13 +50,13 @@ class GraphReader {
     return false;
   }
 
-  void check_keys(const JsonNode& object, const std::vector<std::string>& known, const std::string& what) {
+  void check_keys(const JsonNode& object, KeyTable known, const std::string& what) {
     for (const JsonMember& member : object.members) {
       bool found = false;
-      for (const std::string& key : known) found = found || key == member.key;
+      for (const KeyDoc& row : known) found = found || row.key == member.key;
       if (!found)
         diagnostics_.error("unknown-key", member.where, what + " has no key " + in_quotes(member.key),
-                           did_you_mean(member.key, known, "known keys"));
+                           did_you_mean(member.key, keys_of(known), "known keys"));
     }
   }
 
@@ -83,7 +82,7 @@ class GraphReader {
   void read_size(const JsonNode& node, const std::string& what, SizeSpec& size) {
     size.where = node.where;
     if (!expect(node, JsonKind::object, what)) return;
-    check_keys(node, {"width", "height"}, what);
+    check_keys(node, kSizeKeys, what);
     read_length(node, "width", what, size.width);
     read_length(node, "height", what, size.height);
   }
@@ -169,7 +168,7 @@ class GraphReader {
     pass.type.where = member.value.where;
     const JsonNode& node = member.value;
     if (!expect(node, JsonKind::object, "a pass")) return pass;
-    check_keys(node, {"type", "in", "params", "enabled", "when", "doc"}, "a pass");
+    check_keys(node, kPassKeys, "a pass");
     if (const JsonNode* type = node.find("type")) {
       pass.type = read_text(*type, "'type'");
     } else {
@@ -206,7 +205,7 @@ class GraphReader {
     variant.where = member.where;
     const JsonNode& node = member.value;
     if (!expect(node, JsonKind::object, "a variant")) return variant;
-    check_keys(node, {"doc", "disable", "set", "swap"}, "a variant");
+    check_keys(node, kVariantKeys, "a variant");
     if (const JsonNode* doc = node.find("doc")) variant.doc = read_text(*doc, "'doc'").text;
     if (const JsonNode* disable = node.find("disable"); disable && expect(*disable, JsonKind::array, "'disable'")) {
       for (const JsonNode& element : disable->elements)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "framework/base/error.hpp"
@@ -104,6 +105,15 @@ void JsonMembers::finish() const {
       refuse_json(member.where, shown(member.key) + " is not a known member",
                   did_you_mean(member.key, known_, "known are"));
   }
+}
+
+void JsonMembers::finish(KeyTable table) const {
+  std::vector<std::string> documented = keys_of(table);
+  std::vector<std::string> read = known_;
+  std::sort(documented.begin(), documented.end());
+  std::sort(read.begin(), read.end());
+  if (read != documented) throw std::logic_error(name_ + " is read by other keys than its table has");
+  finish();
 }
 
 std::string JsonMembers::shown(const std::string& key) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/base/json.hpp"
+#include "framework/base/key_table.hpp"
 
 namespace lightloom::scene {
 
@@ -17,6 +18,13 @@ namespace lightloom::scene {
 
 /// Reads and parses a file. Throws Error(invalid_input) with the place of the first mistake.
 [[nodiscard]] JsonNode parse_json_file(const std::filesystem::path& path);
+
+/// A number that may be left out.
+struct NumberRange {
+  double fallback = 0;
+  double minimum = 0;
+  double maximum = 0;
+};
 
 /// An object whose members are read one by one; `finish` refuses those that nobody asked for. All that is wrong is
 /// thrown as Error(invalid_input) with file, line, column and the member's path ("cameras.a.eye[2]").
@@ -41,8 +49,14 @@ class JsonMembers {
                                             double min) const;
   [[nodiscard]] glm::vec3 vec3(const JsonNode& value, const std::string& key, double min) const;
   [[nodiscard]] glm::vec3 vec3_or(const std::string& key, const glm::vec3& fallback, double min);
+  [[nodiscard]] double number_or(const std::string& key, const NumberRange& range) {
+    return number_or(key, range.fallback, range.minimum, range.maximum);
+  }
   /// Refuses members that were not looked for.
   void finish() const;
+  /// The same. Throws std::logic_error where what was looked for is not what the table has, from which the format's
+  /// schema is made.
+  void finish(KeyTable table) const;
 
  private:
   [[nodiscard]] std::string shown(const std::string& key) const;

@@ -4,6 +4,7 @@
 
 #include "framework/scene/images.hpp"
 #include "framework/scene/json_members.hpp"
+#include "framework/scene/scene_keys.hpp"
 
 namespace lightloom::scene {
 namespace {
@@ -15,18 +16,18 @@ InstanceSpec read_instance(const JsonNode& node, const std::filesystem::path& fo
   instance.gltf = folder / members.typed(gltf, "gltf", JsonKind::string).string;
   instance.where = place_of(gltf) + ": " + path;
   instance.translation = members.vec3_or("translation", glm::vec3(0), -JsonMembers::kLargest);
-  instance.rotation_y = glm::radians(static_cast<float>(members.number_or("rotation_y_degrees", 0, -1e6, 1e6)));
-  instance.scale = static_cast<float>(members.number_or("scale", 1, 1e-9, 1e9));
-  instance.time_offset = members.number_or("time_offset_seconds", 0, -1e9, 1e9);
+  instance.rotation_y = glm::radians(static_cast<float>(members.number_or("rotation_y_degrees", kInstanceRotation)));
+  instance.scale = static_cast<float>(members.number_or("scale", kInstanceScale));
+  instance.time_offset = members.number_or("time_offset_seconds", kTimeOffset);
   if (const JsonNode* animation = members.find("animation")) {
     instance.animation_named = true;
-    if (animation->kind == JsonKind::integer && animation->integer >= 0 && animation->integer < 1000000) {
+    if (animation->kind == JsonKind::integer && animation->integer >= 0 && animation->integer < kMostAnimations) {
       instance.animation = static_cast<int>(animation->integer);
     } else {
       instance.animation = members.typed(*animation, "animation", JsonKind::string).string;
     }
   }
-  members.finish();
+  members.finish(kInstanceKeys);
   return instance;
 }
 
@@ -37,8 +38,8 @@ Camera read_camera(const JsonNode& node, const std::string& name, const std::str
   const glm::vec3 eye = members.vec3(members.require("eye"), "eye", -JsonMembers::kLargest);
   const glm::vec3 target = members.vec3(members.require("target"), "target", -JsonMembers::kLargest);
   const glm::vec3 up = members.vec3_or("up", {0, 1, 0}, -JsonMembers::kLargest);
-  camera.vertical_fov = glm::radians(static_cast<float>(members.number_or("vertical_fov_degrees", 45, 0.01, 179.9)));
-  members.finish();
+  camera.vertical_fov = glm::radians(static_cast<float>(members.number_or("vertical_fov_degrees", kFieldOfView)));
+  members.finish(kCameraKeys);
   const glm::vec3 forward = target - eye;
   if (!(glm::length(forward) > 0))
     refuse_json(node.where, path + " has the same eye and target, expected different points");
@@ -58,8 +59,8 @@ Sun read_sun(const JsonNode& node) {
     refuse_json(direction.where, "sun.direction is zero, expected the direction the light travels in");
   sun.direction = glm::normalize(given);
   sun.irradiance = members.vec3(members.require("irradiance"), "irradiance", 0);
-  sun.angular_radius = glm::radians(static_cast<float>(members.number_or("angular_radius_degrees", 0, 0, 89)));
-  members.finish();
+  sun.angular_radius = glm::radians(static_cast<float>(members.number_or("angular_radius_degrees", kSunRadius)));
+  members.finish(kSunKeys);
   return sun;
 }
 
@@ -78,10 +79,12 @@ Environment read_environment(const JsonNode& node, const std::filesystem::path& 
     environment.radiance = members.vec3(*radiance, "radiance", 0);
   } else {
     const std::string& file = members.typed(*image, "image", JsonKind::string).string;
-    environment.radiance = glm::vec3(scale ? static_cast<float>(members.number(*scale, "scale", 0, 1e9)) : 1.0f);
+    environment.radiance = glm::vec3(scale ? static_cast<float>(members.number(
+                                                 *scale, "scale", kEnvironmentScale.minimum, kEnvironmentScale.maximum))
+                                           : 1.0f);
     load_environment(folder / file, place_of(*image) + ": environment.image", environment);
   }
-  members.finish();
+  members.finish(kEnvironmentKeys);
   return environment;
 }
 
@@ -91,8 +94,9 @@ SceneFile read_scene_file(const std::filesystem::path& path) {
   const JsonNode root = parse_json_file(path);
   const std::filesystem::path folder = path.parent_path();
   JsonMembers members(root, "the scene file", "");
+  if (const JsonNode* schema = members.find("$schema")) members.typed(*schema, "$schema", JsonKind::string);
   const JsonNode& version = members.require("lightloom_scene");
-  if (members.typed(version, "lightloom_scene", JsonKind::integer).integer != 1) {
+  if (members.typed(version, "lightloom_scene", JsonKind::integer).integer != kSceneFormatVersion) {
     refuse_json(version.where, "lightloom_scene is " + std::to_string(version.integer) + ", expected 1");
   }
   SceneFile result;
@@ -115,7 +119,7 @@ SceneFile read_scene_file(const std::filesystem::path& path) {
   if (const JsonNode* sun = members.find("sun")) result.sun = read_sun(*sun);
   if (const JsonNode* environment = members.find("environment"))
     result.environment = read_environment(*environment, folder);
-  members.finish();
+  members.finish(kSceneKeys);
   return result;
 }
 

@@ -5,11 +5,10 @@
 #include "framework/base/text.hpp"
 #include "framework/graph/graph_spec.hpp"
 #include "framework/study/spec_reader.hpp"
+#include "framework/study/study_keys.hpp"
 
 namespace lightloom::study {
 namespace {
-
-constexpr int64_t kFormatVersion = 1;
 
 class StudyReader : SpecReader {
  public:
@@ -20,11 +19,9 @@ class StudyReader : SpecReader {
 
   std::optional<StudySpec> read(const JsonNode& root) {
     if (!expect(root, JsonKind::object, "a study") || !check_version(root)) return std::nullopt;
-    check_keys(root,
-               {"$schema",   "lightloom_study", "name",   "description", "graph",  "scenes",    "size",  "trace_size",
-                "changes",   "frames",          "seeds",  "variants",    "ablate", "factorial", "sweep", "mode",
-                "reference", "metrics",         "output", "jobs"},
-               "a study");
+    check_keys(root, kStudyKeys, "a study");
+    std::string schema;
+    read_text(root, "$schema", schema);
     read_text(root, "name", spec_.name);
     read_text(root, "description", spec_.description);
     read_text(root, "output", spec_.output);
@@ -47,7 +44,7 @@ class StudyReader : SpecReader {
             "begin the file with \"lightloom_study\": 1");
       return false;
     }
-    if (version->kind == JsonKind::integer && version->integer == kFormatVersion) return true;
+    if (version->kind == JsonKind::integer && version->integer == kStudyFormatVersion) return true;
     error("unknown-version", version->where, "'lightloom_study' must be 1, the version of the file format");
     return false;
   }
@@ -82,7 +79,7 @@ class StudyReader : SpecReader {
     }
     if (node.kind != JsonKind::object)
       return error("wrong-type", node.where, "a scene must be a path, or an object with 'scene' and 'cameras'");
-    check_keys(node, {"scene", "cameras"}, "a scene");
+    check_keys(node, kSceneChoiceKeys, "a scene");
     SceneChoice scene;
     std::string file;
     read_text(node, "scene", file);
@@ -101,7 +98,7 @@ class StudyReader : SpecReader {
       return;
     }
     if (!expect(*node, JsonKind::object, "'frames'")) return;
-    check_keys(*node, {"count", "warm_up", "first", "judged", "per_second"}, "'frames'");
+    check_keys(*node, kFramesKeys, "'frames'");
     read_count(*node, "count", 1, kMostFrames, spec_.frames);
     read_count(*node, "warm_up", 0, kMostFrames, spec_.warm_up);
     read_count(*node, "first", 0, kMostFrames, spec_.first_frame);
@@ -170,7 +167,7 @@ class StudyReader : SpecReader {
                    "a variant must be the name of one in the graph, or an object with a 'name' and changes");
     Choice choice;
     choice.where = node.where;
-    choice.changes = changes(node, "a variant", {"name"});
+    choice.changes = changes(node, "a variant", kNameKeys);
     read_text(node, "name", choice.name);
     if (choice.name.empty()) error("missing-key", node.where, "a variant needs a 'name'");
     spec_.variants.push_back(std::move(choice));
@@ -233,25 +230,20 @@ class StudyReader : SpecReader {
     for (const char* key : {"graph", "image", "setting"}) kinds += node.find(key) != nullptr ? 1 : 0;
     if (kinds != 1) return error("missing-key", node.where, "a reference needs one of 'graph', 'image' and 'setting'");
     if (node.find("image") != nullptr) {
-      check_keys(node, {"image"}, "a reference image");
+      check_keys(node, kReferenceImageKeys, "a reference image");
       reference.kind = ReferenceSpec::Kind::image;
       std::string image;
       read_text(node, "image", image);
       reference.image = path(image).string();
       return;
     }
-    const std::vector<std::string> common = {"frames", "seed", "average", "match"};
     if (const JsonNode* setting = node.find("setting")) {
       reference.kind = ReferenceSpec::Kind::setting;
-      std::vector<std::string> known = common;
-      known.emplace_back("setting");
-      check_keys(node, known, "a reference setting");
+      check_keys(node, joined({kReferenceSettingKeys, kReferenceKeys}), "a reference setting");
       reference.changes = changes(*setting, "'setting'");
     } else {
       reference.kind = ReferenceSpec::Kind::graph;
-      std::vector<std::string> more = common;
-      more.emplace_back("graph");
-      reference.changes = changes(node, "a reference graph", more);
+      reference.changes = changes(node, "a reference graph", joined({kReferenceGraphKeys, kReferenceKeys}));
       std::string graph;
       read_text(node, "graph", graph);
       reference.graph = path(graph);

@@ -5,6 +5,7 @@
 
 #include "framework/base/text.hpp"
 #include "framework/graph/param.hpp"
+#include "framework/study/study_keys.hpp"
 
 namespace lightloom::study {
 
@@ -15,7 +16,8 @@ bool SpecReader::expect(const JsonNode& node, JsonKind kind, const std::string& 
   return false;
 }
 
-void SpecReader::check_keys(const JsonNode& object, const std::vector<std::string>& known, const std::string& what) {
+void SpecReader::check_keys(const JsonNode& object, KeyTable table, const std::string& what) {
+  const std::vector<std::string> known = keys_of(table);
   for (const JsonMember& member : object.members)
     if (std::find(known.begin(), known.end(), member.key) == known.end())
       error("unknown-key", member.where, what + " has no key " + in_quotes(member.key),
@@ -105,12 +107,10 @@ std::optional<std::string> SpecReader::scalar(const JsonNode& node, const std::s
   }
 }
 
-Changes SpecReader::changes(const JsonNode& object, const std::string& what, const std::vector<std::string>& more) {
+Changes SpecReader::changes(const JsonNode& object, const std::string& what, KeyTable more) {
   Changes read;
   if (!expect(object, JsonKind::object, what)) return read;
-  std::vector<std::string> known = {"variants", "set", "disable", "swap", "size", "trace_size", "general"};
-  known.insert(known.begin(), more.begin(), more.end());
-  check_keys(object, known, what);
+  check_keys(object, joined({more, kChangeKeys}), what);
   if (const JsonNode* node = object.find("variants")) read.variants = texts(*node, "'variants'");
   if (const JsonNode* node = object.find("disable")) read.disables = texts(*node, "'disable'");
   if (const JsonNode* node = object.find("set"); node && expect(*node, JsonKind::object, "'set'"))

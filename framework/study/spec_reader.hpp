@@ -7,6 +7,7 @@
 
 #include "framework/base/diagnostics.hpp"
 #include "framework/base/json.hpp"
+#include "framework/base/key_table.hpp"
 #include "framework/study/study_spec.hpp"
 
 namespace lightloom::study {
@@ -17,7 +18,7 @@ class SpecReader {
   explicit SpecReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   bool expect(const JsonNode& node, JsonKind kind, const std::string& what);
-  void check_keys(const JsonNode& object, const std::vector<std::string>& known, const std::string& what);
+  void check_keys(const JsonNode& object, KeyTable known, const std::string& what);
   void error(const std::string& code, const SourceLocation& where, const std::string& message,
              const std::string& hint = {});
 
@@ -33,7 +34,7 @@ class SpecReader {
   /// The text that `--set` would take for the value, or empty and reported.
   std::optional<std::string> scalar(const JsonNode& node, const std::string& what);
   /// variants, set, disable, swap, size, trace_size, general; `more` are keys that the caller reads.
-  Changes changes(const JsonNode& object, const std::string& what, const std::vector<std::string>& more = {});
+  Changes changes(const JsonNode& object, const std::string& what, KeyTable more = {});
 
  private:
   Diagnostics& diagnostics_;

@@ -157,6 +157,16 @@ TEST(Docs, the_page_of_passes_is_what_the_program_prints) {
       << "; write the page again: build/lightloom passes --markdown > docs/passes.md";
 }
 
+TEST(Docs, the_schemas_are_what_the_program_prints) {
+  const Sandbox sandbox;
+  for (const std::string format : {"graph", "scene", "study"}) {
+    const auto [status, printed] = sandbox.run("lightloom schema " + format);
+    ASSERT_EQ(status, 0) << printed;
+    EXPECT_TRUE(printed == read_text_file(kSource / "docs" / (format + ".schema.json")))
+        << "write it again: build/lightloom schema " << format << " --out docs/" << format << ".schema.json";
+  }
+}
+
 TEST(Docs, the_first_graph_of_the_readme_is_the_sample) {
   std::string graph;
   for (const Block& block : fenced_blocks(read_text_file(kSource / "README.md"))) {
@@ -198,7 +208,7 @@ TEST(Docs, every_command_of_the_program_is_documented) {
   const auto [status, help] = sandbox.run("lightloom --help");
   ASSERT_EQ(status, 0);
   for (const char* command :
-       {"render", "check", "plan", "passes", "scene", "brdf", "compare", "study", "devices", "completion"}) {
+       {"render", "check", "plan", "passes", "schema", "scene", "brdf", "compare", "study", "devices", "completion"}) {
     EXPECT_THAT(help, ::testing::HasSubstr(std::string("\n  ") + command + " "));
     EXPECT_THAT(page, ::testing::HasSubstr(std::string("lightloom ") + command));
   }

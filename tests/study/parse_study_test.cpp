@@ -4,12 +4,14 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "framework/base/file.hpp"
 #include "framework/base/text.hpp"
+#include "framework/study/study_schema.hpp"
 #include "framework/study/study_spec.hpp"
+#include "tests/support/schema_check.hpp"
 #include "tests/support/source_dir.hpp"
 
 namespace lightloom::study {
@@ -173,23 +175,17 @@ TEST(ParseStudy, OtherFilesAreNamedAsSuch) {
 // The schema that editors use says the same as the parser, which shares no code with it.
 TEST(StudySchema, AcceptsWhatTheParserAccepts) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / ("lightloom-schema-" + std::to_string(getpid()));
-  fs::create_directories(folder);
+  const test::SchemaFolder folder;
   std::vector<fs::path> files;
   const auto add = [&](const std::string& text) {
-    files.push_back(folder / (std::to_string(files.size()) + ".json"));
-    std::ofstream(files.back()) << text;
+    files.push_back(folder.write(std::to_string(files.size()) + ".json", text));
   };
   add(kWhole);
   for (const Mistake& mistake : kMistakes) add(with_mistake(mistake.members));
   const size_t made = files.size();
   for (const auto& entry : fs::directory_iterator(source_dir() / "samples/studies")) files.push_back(entry.path());
-  std::string command = "python3 '" + (source_dir() / "tests/study/schema_test.py").string() + "' '" +
-                        (source_dir() / "docs/study.schema.json").string() + "'";
-  for (const fs::path& file : files) command += " '" + file.string() + "'";
-  ASSERT_EQ(std::system((command + " > '" + (folder / "answers.txt").string() + "'").c_str()), 0);
-  std::vector<std::string> answers = split(read_text_file(folder / "answers.txt"), '\n');
-  ASSERT_GE(answers.size(), files.size());
+  const std::vector<std::string> answers =
+      folder.check(folder.write("study.schema.json", study_schema().dump()), files);
   ASSERT_GT(files.size(), made + 4) << "the shipped studies";
   for (size_t i = 0; i < files.size(); ++i) {
     Diagnostics diagnostics;
@@ -199,7 +195,6 @@ TEST(StudySchema, AcceptsWhatTheParserAccepts) {
     const bool beyond = i > 0 && i < made && !parsed && kBeyondSchema.contains(kMistakes[i - 1].members);
     EXPECT_EQ(answers[i], parsed || beyond ? "yes" : "no") << read_text_file(files[i]);
   }
-  fs::remove_all(folder);
 }
 
 }  // namespace
