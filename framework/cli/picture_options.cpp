@@ -11,6 +11,11 @@ std::string check_frames(std::string_view text) {
   return frames.last <= kLastFrame ? "" : "frames end at " + std::to_string(kLastFrame);
 }
 
+std::string check_folder(std::string_view text) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(text, ignored) ? "" : "there is no folder '" + std::string(text) + "'";
+}
+
 }  // namespace
 
 void PictureOptions::add_graph_to(Command& command) {
@@ -31,6 +36,9 @@ void PictureOptions::add_to(Command& command) {
       .placeholder("SECONDS")
       .range(0, 1e6);
   group(command.option("--seed", seed, "Seed of all random numbers"));
+  command.option("--shaders", shaders, "Folder that is searched for shaders first: those there replace the program's")
+      .placeholder("DIR")
+      .check(check_folder);
   changes.add_to(command);
 }
 
@@ -38,6 +46,7 @@ run::RenderRequest PictureOptions::request(const CommandContext& context) const 
   run::RenderRequest request;
   request.plugins = context.plugins;
   request.shaders = run::shader_folders_with(context.plugins);
+  request.shaders.sources.insert(request.shaders.sources.begin(), shaders.begin(), shaders.end());
   request.graph = graph;
   request.scene = scene;
   request.link = changes.link_options();

@@ -23,6 +23,7 @@ struct PictureOptions {
   uint32_t seed = 0;
   double frames_per_second = 30;
   std::optional<double> time;
+  std::vector<std::filesystem::path> shaders;
 
   /// The argument GRAPH.
   void add_graph_to(Command& command);

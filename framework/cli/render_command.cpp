@@ -16,6 +16,8 @@ struct RenderOptions {
   PictureOptions picture;
   std::filesystem::path out;
   std::string dump_format = "exr";
+  std::optional<std::string> dump_frames;
+  std::optional<std::string> output_frames;
   uint32_t checkpoint_every = 0;
   bool resume = false;
   std::string device;
@@ -23,10 +25,23 @@ struct RenderOptions {
   bool validate = false;
 };
 
+/// The frames that an option chooses among those that are rendered, at least one.
+run::FrameSet chosen_frames(const char* option, const std::optional<std::string>& text, const Range& rendered) {
+  run::FrameSet chosen;
+  if (text) static_cast<void>(run::parse_frame_set(*text, chosen));  // was checked when the option was read
+  if (chosen.meets(rendered.first, rendered.last)) return chosen;
+  throw Error(ExitCode::usage, std::string("option '") + option + "': " + *text + " has none of the frames " +
+                                   format_value(rendered) + " that are rendered");
+}
+
 run::RenderRequest make_request(const RenderOptions& options, const CommandContext& context,
                                 const std::vector<std::string>& arguments) {
   run::RenderRequest request = options.picture.request(context);
   request.dump_format = options.dump_format == "npy" ? run::DumpFormat::npy : run::DumpFormat::exr;
+  request.output_frames = chosen_frames("--output-frames", options.output_frames, options.picture.frames);
+  request.dump_frames = chosen_frames("--dump-frames", options.dump_frames, options.picture.frames);
+  if (options.dump_frames && options.picture.changes.dumps.empty())
+    throw Error(ExitCode::usage, "option '--dump-frames' needs '--dump', which says what to write");
   request.share_memory = !options.no_alias;
   request.checkpoint_every = options.checkpoint_every;
   request.resume = options.resume;
@@ -76,6 +91,19 @@ ExitCode render(const RenderOptions& options, const CommandContext& context,
   return ExitCode::done;
 }
 
+void add_frame_choices(Command& command, RenderOptions& options) {
+  const auto check = [](std::string_view text) {
+    run::FrameSet parsed;
+    return run::parse_frame_set(text, parsed);
+  };
+  const auto add = [&](const char* name, std::optional<std::string>& frames, const char* doc) {
+    command.option(name, frames, doc).placeholder("FRAMES").default_text("all").check(check).group("Scene and frames");
+  };
+  add("--output-frames", options.output_frames,
+      "Write the graph's outputs of these frames only, such as 0..3,10,20..100:10 (every tenth) or 99..:100");
+  add("--dump-frames", options.dump_frames, "Write what --dump asks for of these frames only");
+}
+
 }  // namespace
 
 void add_render_command(Command& program, const CommandContext& context, const std::vector<std::string>& arguments) {
@@ -88,6 +116,7 @@ void add_render_command(Command& program, const CommandContext& context, const s
   options->picture.add_to(command);
   command.option("--dump-format", options->dump_format, "How --dump writes images: OpenEXR, or NumPy arrays (y, x, c)")
       .choices({"exr", "npy"});
+  add_frame_choices(command, *options);
   command.option("-o,--out", options->out, "Run folder, made if missing")
       .placeholder("DIR")
       .default_text("out/ and the graph file's name");

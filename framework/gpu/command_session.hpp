@@ -21,6 +21,12 @@ class CommandSession {
     commands_ = VK_NULL_HANDLE;
     device_.finish_commands();
   }
+  /// Submits it and returns at once; Device::wait_commands waits.
+  void start() {
+    if (commands_ == VK_NULL_HANDLE) return;
+    commands_ = VK_NULL_HANDLE;
+    device_.submit_commands();
+  }
 
  private:
   Device& device_;

@@ -148,6 +148,7 @@ void Device::run_commands(const std::function<void(VkCommandBuffer)>& record) {
 }
 
 VkCommandBuffer Device::begin_commands() {
+  wait_commands();
   check(vkResetCommandPool(device_, command_pool_.get(), 0), "vkResetCommandPool");
   VkCommandBufferBeginInfo begin{};
   begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
@@ -157,11 +158,12 @@ VkCommandBuffer Device::begin_commands() {
 }
 
 void Device::finish_commands() {
-  check(vkEndCommandBuffer(command_buffer_), "vkEndCommandBuffer");
-  submit_and_wait();
+  submit_commands();
+  wait_commands();
 }
 
-void Device::submit_and_wait() {
+void Device::submit_commands() {
+  check(vkEndCommandBuffer(command_buffer_), "vkEndCommandBuffer");
   VkCommandBufferSubmitInfo commands{};
   commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
   commands.commandBuffer = command_buffer_;
@@ -174,7 +176,13 @@ void Device::submit_and_wait() {
   const VkResult submitted = vkQueueSubmit2(queue_, 1, &submit, fence);
   lost_ = lost_ || submitted == VK_ERROR_DEVICE_LOST;
   check(submitted, "vkQueueSubmit2 on '" + info_.name + "'");
+  running_ = true;
+}
 
+void Device::wait_commands() {
+  if (!running_) return;
+  running_ = false;
+  const VkFence fence = fence_.get();
   const uint64_t limit = info_.type == DeviceType::cpu ? UINT64_MAX : kHangNanoseconds;
   const VkResult waited = vkWaitForFences(device_, 1, &fence, VK_TRUE, limit);
   lost_ = lost_ || waited == VK_ERROR_DEVICE_LOST || waited == VK_TIMEOUT;

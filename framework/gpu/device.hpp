@@ -91,6 +91,11 @@ class Device {
   [[nodiscard]] VkCommandBuffer begin_commands();
   /// … and ends it, submits it and waits until it is done. Errors as above.
   void finish_commands();
+  /// finish_commands in two halves, for who has something else to do meanwhile: ends and submits; what the commands use
+  /// must live until …
+  void submit_commands();
+  /// … they are done: waits for what was submitted, if anything. begin_commands does so by itself.
+  void wait_commands();
 
   /// Name that validation messages show; without effect unless validating.
   void set_name(VkObjectType type, uint64_t object, const std::string& name) const;
@@ -98,7 +103,6 @@ class Device {
  private:
   void create_device(bool validate);
   void create_commands();
-  void submit_and_wait();
 
   Instance instance_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
@@ -109,6 +113,7 @@ class Device {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   bool lost_ = false;
+  bool running_ = false;  ///< the command buffer was submitted and not yet waited for
   PFN_vkSetDebugUtilsObjectNameEXT set_object_name_ = nullptr;
   CommandPoolHandle command_pool_;
   VkCommandBuffer command_buffer_ = VK_NULL_HANDLE;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "framework/base/error.hpp"
 #include "framework/gpu/transfer.hpp"
 #include "framework/run/barriers.hpp"
 #include "framework/run/device_needs.hpp"
@@ -48,27 +49,69 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
   });
 }
 
-FrameResult Executor::run_frame(uint32_t frame) {
-  conditions_ = scene_.prepare(frame);
-  FrameResult result = run(frame);
-  remember(frame);
-  return result;
+Executor::~Executor() {
+  try {
+    device_.wait_commands();
+  } catch (const Error&) {
+    // A device that hangs or is lost has been reported, or whatever ends this object is.
+  }
+}
+
+FrameResult Executor::run_frame(uint32_t frame, const FrameWants& wants) {
+  start_frame(frame, wants);
+  return fetch(finish_frame());
 }
 
 FrameResult Executor::repeat_frame() {
   if (!started_) throw std::logic_error("no frame has run yet that could be repeated");
   --frame_count_;
-  return run(recent_frames_.back());
+  start(recent_frames_.back(), {});
+  return fetch(finish());
 }
 
-FrameResult Executor::run(uint32_t frame) {
+void Executor::start_frame(uint32_t frame, const FrameWants& wants) {
+  if (under_way_) throw std::logic_error("a frame was started while another one is under way");
+  conditions_ = scene_.prepare(frame);
+  start(frame, wants);
+}
+
+FinishedFrame Executor::finish_frame() {
+  FinishedFrame frame = finish();
+  remember(frame.result.frame);
+  return frame;
+}
+
+void Executor::start(uint32_t frame, const FrameWants& wants) {
+  FinishedFrame next{.result = {}, .wants = wants, .copies = readback_.acquire(wants)};
+  next.result.frame = frame;
+  next.result.conditions = conditions_;
   descriptors_.reset();
   gpu::CommandSession session(device_);
-  record_frame(session);
-  session.submit();
-  FrameResult result = collect(frame, conditions_);
+  record_frame(session, *next.copies);
+  session.start();
+  under_way_ = std::move(next);
+}
+
+FinishedFrame Executor::finish() {
+  if (!under_way_) throw std::logic_error("there is no frame under way to be finished");
+  FinishedFrame frame = std::move(*under_way_);
+  under_way_.reset();
+  device_.wait_commands();
+  collect_times(frame.result);
   ++frame_count_;
   started_ = true;
+  return frame;
+}
+
+FrameResult Executor::fetch(const FinishedFrame& frame) const {
+  const Graph& graph = plan_.graph;
+  FrameResult result = frame.result;
+  if (frame.wants.outputs)
+    for (const GraphOutput& output : graph.outputs)
+      result.outputs.push_back({output.name, frame.copies->fetch(output.value, output.age)});
+  if (frame.wants.captures)
+    for (const ValueId capture : graph.captures)
+      result.captures.push_back({value_name(graph.values[capture]), frame.copies->fetch(capture, 0)});
   return result;
 }
 
@@ -123,7 +166,7 @@ void Executor::record_prologue(VkCommandBuffer commands) const {
   record_barriers(commands, plan_.prologue_barriers);
 }
 
-void Executor::record_frame(gpu::CommandSession& session) {
+void Executor::record_frame(gpu::CommandSession& session, const FrameCopies& copies) {
   const bool first = !started_;
   timestamps_.reset(session.get());
   if (!initialised_) record_prologue(session.get());
@@ -132,15 +175,16 @@ void Executor::record_frame(gpu::CommandSession& session) {
   scene_.record_upload(session.get());
   record_barriers(session.get(), plan_.inputs_ready);
   if (first) {
-    record_steps(session, plan_.once, query_count(plan_.steps.size()));
+    record_steps(session, plan_.once, query_count(plan_.steps.size()), copies);
     record_barriers(session.get(), plan_.once_barriers);
   }
-  record_observations(session.get(), plan_.opening_observations);
-  record_steps(session, plan_.steps, 0);
+  record_observations(session.get(), plan_.opening_observations, copies);
+  record_steps(session, plan_.steps, 0, copies);
   Readback::record_end(session.get());
 }
 
-void Executor::record_steps(gpu::CommandSession& session, const std::vector<PlanStep>& steps, uint32_t first_query) {
+void Executor::record_steps(gpu::CommandSession& session, const std::vector<PlanStep>& steps, uint32_t first_query,
+                            const FrameCopies& copies) {
   uint32_t query = first_query;
   for (const PlanStep& step : steps) {
     const GraphPass& pass = plan_.graph.passes[step.pass];
@@ -152,7 +196,7 @@ void Executor::record_steps(gpu::CommandSession& session, const std::vector<Plan
     else
       record_pass(session.get(), pass);
     record_timestamp(session.get(), query++);
-    record_observations(session.get(), step.observations);
+    record_observations(session.get(), step.observations, copies);
   }
 }
 
@@ -184,27 +228,22 @@ void Executor::record_timestamp(VkCommandBuffer commands, uint32_t query) const 
   gpu::record_full_barrier(commands);
 }
 
-void Executor::record_observations(VkCommandBuffer commands, const std::vector<Observation>& observations) const {
+void Executor::record_observations(VkCommandBuffer commands, const std::vector<Observation>& observations,
+                                   const FrameCopies& copies) const {
   for (const Observation& observation : observations) {
+    // Also where nothing is copied: later barriers of the plan may build on these.
     record_barriers(commands, observation.barriers);
-    readback_.record(commands, observation, images_, frame_count_);
+    if (observation.observer == Observer::read_back)
+      readback_.record(commands, observation, images_, frame_count_, copies);
   }
 }
 
-FrameResult Executor::collect(uint32_t frame, const FrameConditions& conditions) const {
-  const Graph& graph = plan_.graph;
-  FrameResult result{
-      .frame = frame, .conditions = conditions, .outputs = {}, .captures = {}, .times = {}, .once_times = {}};
-  for (const GraphOutput& output : graph.outputs)
-    result.outputs.push_back({output.name, readback_.fetch(output.value, output.age)});
-  for (const ValueId capture : graph.captures)
-    result.captures.push_back({value_name(graph.values[capture]), readback_.fetch(capture, 0)});
+void Executor::collect_times(FrameResult& result) const {
   const bool first = !started_;
   const std::vector<double> stamps =
       timestamps_.nanoseconds(query_count(plan_.steps.size() + (first ? plan_.once.size() : 0)));
   result.times = times_of(plan_.steps, stamps, 0);
   if (first) result.once_times = times_of(plan_.once, stamps, query_count(plan_.steps.size()));
-  return result;
 }
 
 std::vector<PassTime> Executor::times_of(const std::vector<PlanStep>& steps, const std::vector<double>& stamps,

@@ -36,17 +36,36 @@ struct ExecutorOptions {
   bool single_texels = false;  ///< of what is read back one texel each comes to the host: Executor::look_at
 };
 
+/// A frame that the device is done with, its images still where the device put them.
+struct FinishedFrame {
+  FrameResult result;  ///< without images
+  FrameWants wants;
+  std::shared_ptr<const FrameCopies> copies;  ///< to be let go before the device goes
+};
+
 /// Turns a plan into Vulkan objects and runs frames. Owns the images and history rings; passes own nothing.
 class Executor {
  public:
   /// `device` and `scene` outlive the executor. Throws Error for what a pass needs and the device lacks, for a camera
   /// that the scene lacks, for values beyond the device's limits, and for shaders that do not compile.
   Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, const ExecutorOptions& options);
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+  ~Executor();
 
-  /// Runs frame number `frame` after the frames run so far, which are its history, and waits for it.
-  [[nodiscard]] FrameResult run_frame(uint32_t frame);
+  /// Runs frame number `frame` after the frames run so far, which are its history, and waits for it. What is not wanted
+  /// is not copied, which changes no bit of this or any other frame.
+  [[nodiscard]] FrameResult run_frame(uint32_t frame, const FrameWants& wants = {});
 
-  /// What the next frame goes on from. At least one frame has run.
+  /// The same in steps, so that the host can do something else while the device works, with one frame at a time under
+  /// way: records and submits a frame; returns before the device is done, unless host passes come late in the plan.
+  void start_frame(uint32_t frame, const FrameWants& wants = {});
+  /// Waits for the frame that was started.
+  [[nodiscard]] FinishedFrame finish_frame();
+  /// The result with its images. From any thread, while this executor may be busy with the next frame.
+  [[nodiscard]] FrameResult fetch(const FinishedFrame& frame) const;
+
+  /// What the next frame goes on from. At least one frame has run, and none is under way.
   [[nodiscard]] ExecutorState save() const;
   /// Goes on from there, before the first frame, as if this executor had run those frames with the same plan, scene and
   /// options: the next ones have the same bits. Throws Error(invalid_input) for a state of another graph.
@@ -67,22 +86,27 @@ class Executor {
   [[nodiscard]] const MemorySharing& memory_sharing() const { return images_.sharing(); }
   /// Device memory of all values with their rings [bytes].
   [[nodiscard]] uint64_t value_bytes() const { return images_.bytes(); }
+  /// Frames whose images could be on the host, or on their way, at the same time so far.
+  [[nodiscard]] size_t readback_sets() const { return readback_.set_count(); }
 
  private:
   /// Poses the scene as in these frames, so that it remembers them.
   void pass_through(const std::vector<uint32_t>& frames);
   void run_prologue();
-  [[nodiscard]] FrameResult run(uint32_t frame);
+  void start(uint32_t frame, const FrameWants& wants);
+  [[nodiscard]] FinishedFrame finish();
   void remember(uint32_t frame);
-  void record_frame(gpu::CommandSession& session);
+  void record_frame(gpu::CommandSession& session, const FrameCopies& copies);
   void record_prologue(VkCommandBuffer commands) const;
   /// Timestamps are queries `first_query` and on, two a step. What comes before a host pass is submitted.
-  void record_steps(gpu::CommandSession& session, const std::vector<PlanStep>& steps, uint32_t first_query);
+  void record_steps(gpu::CommandSession& session, const std::vector<PlanStep>& steps, uint32_t first_query,
+                    const FrameCopies& copies);
   void record_pass(VkCommandBuffer commands, const GraphPass& pass);
   void run_host_pass(gpu::CommandSession& session, const GraphPass& pass);
   void record_timestamp(VkCommandBuffer commands, uint32_t query) const;
-  void record_observations(VkCommandBuffer commands, const std::vector<Observation>& observations) const;
-  [[nodiscard]] FrameResult collect(uint32_t frame, const FrameConditions& conditions) const;
+  void record_observations(VkCommandBuffer commands, const std::vector<Observation>& observations,
+                           const FrameCopies& copies) const;
+  void collect_times(FrameResult& result) const;
   [[nodiscard]] std::vector<PassTime> times_of(const std::vector<PlanStep>& steps, const std::vector<double>& stamps,
                                                size_t first_query) const;
 
@@ -98,6 +122,7 @@ class Executor {
   gpu::DescriptorAllocator descriptors_;
   gpu::TimestampPool timestamps_;
   std::map<std::string, double, std::less<>> host_milliseconds_;  ///< by pass, of its last run
+  std::optional<FinishedFrame> under_way_;                        ///< what is known of it beforehand
   uint64_t frame_count_ = 0;                                      ///< with those before `restore`
   bool initialised_ = false;                                      ///< the prologue has run
   bool started_ = false;                                          ///< has run a frame itself

@@ -29,6 +29,12 @@ struct FrameConditions {
   std::vector<glm::vec3> moving_positions;  ///< of the dynamic vertices, in their order [m]
 };
 
+/// What of a frame is brought to the host; the rest stays on the device and costs no copy.
+struct FrameWants {
+  bool outputs = true;   ///< of the graph
+  bool captures = true;  ///< of the plan
+};
+
 /// All that one frame gives to the host.
 struct FrameResult {
   uint32_t frame = 0;

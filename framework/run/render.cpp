@@ -1,6 +1,5 @@
 #include "framework/run/render.hpp"
 
-#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -9,6 +8,7 @@
 #include "framework/run/checkpoint.hpp"
 #include "framework/run/compile_graph.hpp"
 #include "framework/run/executor.hpp"
+#include "framework/run/frame_loop.hpp"
 #include "framework/run/provenance.hpp"
 #include "framework/run/run_folder.hpp"
 #include "framework/run/run_progress.hpp"
@@ -20,7 +20,6 @@ namespace lightloom::run {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
 
 /// What the steps of one render share.
 struct Run {
@@ -54,6 +53,8 @@ Json run_record(const Run& run, const Executor& executor, const RunProgress& pro
   record["frozen_time"] = request.frozen_time ? Json(*request.frozen_time) : Json();
   record["sync"] = to_string(request.compile.sync);
   record["dump_format"] = to_string(request.dump_format);
+  record["output_frames"] = to_string(request.output_frames);
+  record["dump_frames"] = to_string(request.dump_frames);
   record["device"] = device_record(run.device.info());
   record["validation"] = run.device.validating();
   record["value_memory_bytes"] = executor.value_bytes();
@@ -83,6 +84,8 @@ Json identity_of(const Run& run, const Plan& plan) {
           {"frames a second", Json(request.frames_per_second).dump()},
           {"frozen time", request.frozen_time ? Json(*request.frozen_time).dump() : "none"},
           {"dump format", to_string(request.dump_format)},
+          {"frames with outputs", to_string(request.output_frames)},
+          {"frames with dumps", to_string(request.dump_frames)},
           {"device", device.name + ", " + device.driver_info + ", " + device.uuid_text()},
           {"plug-ins", plugins.dump()},
           {"lightloom", version() + " " + commit()}};
@@ -109,32 +112,17 @@ RunFolder open_folder(const RenderRequest& request, const std::optional<Checkpoi
   return {request.out, request.dump_format, checkpoint->folder};
 }
 
-void render_frame(const Run& run, Executor& executor, RunFolder& folder, RunProgress& progress) {
-  const bool first = progress.frames() == 0;
-  const Clock::time_point start = Clock::now();
-  const FrameResult result = executor.run_frame(run.request.first_frame + progress.frames());
-  const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
-  progress.wall_milliseconds.push_back(elapsed.count());
-  progress.pass_times.push_back(result.times);
-  if (first) progress.once_times = result.once_times;
-  folder.write_frame(executor.plan().graph, result, frame_record(result, run.request.seed, run.scene.bounds));
-}
-
-void render_frames(const Run& run, Executor& executor, RunFolder& folder, RunProgress& progress,
-                   const FrameCallback& on_frame) {
-  if (progress.frames() == 0 && !executor.plan().graph.captures.empty()) folder.write_moving_triangles(run.scene);
-  const uint32_t every = run.request.checkpoint_every;
-  while (progress.frames() < run.total) {
-    render_frame(run, executor, folder, progress);
-    const uint32_t done = progress.frames();
-    if (every > 0 && (done % every == 0 || done == run.total)) {
-      folder.add_file(checkpoint_file());
-      write_checkpoint(
-          folder.path(),
-          {.identity = run.identity, .folder = folder.state(), .progress = progress, .state = executor.save()});
-    }
-    if (on_frame) on_frame(done, run.total);
-  }
+FrameLoopOptions loop_options(const Run& run, const FrameCallback& on_frame) {
+  const RenderRequest& request = run.request;
+  return {
+      .first_frame = request.first_frame,
+      .total = run.total,
+      .output_frames = request.output_frames,
+      .dump_frames = request.dump_frames,
+      .checkpoint_every = request.checkpoint_every,
+      .identity = run.identity,
+      .describe = [&run](const FrameResult& frame) { return frame_record(frame, run.request.seed, run.scene.bounds); },
+      .on_frame = on_frame};
 }
 
 std::vector<std::string> validation_warnings(const gpu::Device& device) {
@@ -183,7 +171,8 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
   RunFolder folder = open_folder(request, checkpoint);
   RunProgress progress = checkpoint ? checkpoint->progress : RunProgress{};
   summary.frames_resumed = progress.frames();
-  render_frames(run, executor, folder, progress, on_frame);
+  if (progress.frames() == 0 && !executor.plan().graph.captures.empty()) folder.write_moving_triangles(scene);
+  render_frames(executor, folder, progress, loop_options(run, on_frame));
   summary.folder = folder.path();
   summary.images = pictures(folder);
   summary.warnings = scene.warnings;

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "framework/graph/link.hpp"
 #include "framework/graph/pass_type.hpp"
 #include "framework/graph/plan.hpp"
+#include "framework/run/frame_loop.hpp"
 #include "framework/run/plugins.hpp"
 #include "framework/run/run_folder.hpp"
 #include "framework/run/shader_folders.hpp"
@@ -33,6 +33,8 @@ struct RenderRequest {
   std::filesystem::path out;          ///< run folder, made if missing
   bool share_memory = true;           ///< values that are not live at the same time share memory
   DumpFormat dump_format = DumpFormat::exr;
+  FrameSet output_frames;  ///< whose outputs are written
+  FrameSet dump_frames;    ///< whose captures are written
   /// Frames between two checkpoints; the last frame gets one as well. 0: none.
   uint32_t checkpoint_every = 0;
   /// Go on from the checkpoint of the run folder, if it has one, instead of starting anew.
@@ -50,9 +52,6 @@ struct RenderSummary {
   uint32_t frames_resumed = 0;                ///< of an interrupted run that were there already
   double milliseconds_per_frame = 0;          ///< median wall time
 };
-
-/// Called after each finished frame.
-using FrameCallback = std::function<void(uint32_t done, uint32_t total)>;
 
 /// Renders the frames one after another and writes the run folder (design, section 5). Problems of the graph file or of
 /// the options go to `diagnostics`, and nothing is written; everything else is thrown as Error.

@@ -1,0 +1,89 @@
+#include "framework/run/frame_loop.hpp"
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "framework/base/background_jobs.hpp"
+#include "framework/run/checkpoint.hpp"
+
+namespace lightloom::run {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Frames whose files are being written or wait for that: one, and one more so that the next frame need not wait where
+/// frames differ in what they write.
+constexpr size_t kFramesBehind = 2;
+
+class FrameLoop {
+ public:
+  FrameLoop(Executor& executor, RunFolder& folder, RunProgress& progress, const FrameLoopOptions& options)
+      : executor_(executor), folder_(folder), progress_(progress), options_(options), writing_(kFramesBehind) {}
+
+  void run() {
+    if (progress_.frames() < options_.total) start();
+    while (progress_.frames() < options_.total) {
+      write(finish());
+      if (options_.on_frame) options_.on_frame(progress_.frames(), options_.total);
+      // Before the frame is started, not after, as each frame under way has read-back buffers of its own.
+      writing_.wait_for_room();
+      if (progress_.frames() < options_.total) start();
+    }
+    writing_.finish();
+  }
+
+ private:
+  void start() {
+    const uint32_t frame = options_.first_frame + progress_.frames();
+    started_ = Clock::now();
+    executor_.start_frame(
+        frame, {.outputs = options_.output_frames.contains(frame), .captures = options_.dump_frames.contains(frame)});
+  }
+
+  FinishedFrame finish() {
+    FinishedFrame frame = executor_.finish_frame();
+    const std::chrono::duration<double, std::milli> elapsed = Clock::now() - started_;
+    if (progress_.frames() == 0) progress_.once_times = frame.result.once_times;
+    progress_.wall_milliseconds.push_back(elapsed.count());
+    progress_.pass_times.push_back(frame.result.times);
+    return frame;
+  }
+
+  void write(FinishedFrame frame) {
+    const std::shared_ptr<Checkpoint> checkpoint = save();
+    if (!checkpoint && !frame.wants.outputs && !frame.wants.captures) return;
+    writing_.add([this, checkpoint, frame = std::move(frame)] {
+      const FrameResult result = executor_.fetch(frame);
+      folder_.write_frame(executor_.plan().graph, result, options_.describe(result));
+      if (!checkpoint) return;
+      folder_.add_file(checkpoint_file());
+      checkpoint->folder = folder_.state();
+      write_checkpoint(folder_.path(), *checkpoint);
+    });
+  }
+
+  /// The checkpoint that is due now, but for the state of the folder; empty if none is.
+  [[nodiscard]] std::shared_ptr<Checkpoint> save() const {
+    const uint32_t every = options_.checkpoint_every;
+    const uint32_t done = progress_.frames();
+    if (every == 0 || (done % every != 0 && done != options_.total)) return nullptr;
+    return std::make_shared<Checkpoint>(
+        Checkpoint{.identity = options_.identity, .folder = {}, .progress = progress_, .state = executor_.save()});
+  }
+
+  Executor& executor_;
+  RunFolder& folder_;  ///< of the writing thread, until that has finished
+  RunProgress& progress_;
+  const FrameLoopOptions& options_;
+  Clock::time_point started_;
+  BackgroundJobs writing_;
+};
+
+}  // namespace
+
+void render_frames(Executor& executor, RunFolder& folder, RunProgress& progress, const FrameLoopOptions& options) {
+  FrameLoop(executor, folder, progress, options).run();
+}
+
+}  // namespace lightloom::run

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "framework/run/executor.hpp"
+#include "framework/run/frame_set.hpp"
+#include "framework/run/run_folder.hpp"
+#include "framework/run/run_progress.hpp"
+
+namespace lightloom::run {
+
+/// Called after each rendered frame, whose files may be under way still. What it throws ends the run.
+using FrameCallback = std::function<void(uint32_t done, uint32_t total)>;
+
+struct FrameLoopOptions {
+  uint32_t first_frame = 0;
+  uint32_t total = 0;               ///< frames
+  FrameSet output_frames;           ///< whose outputs are written
+  FrameSet dump_frames;             ///< whose captures are written
+  uint32_t checkpoint_every = 0;    ///< frames between two checkpoints; the last frame gets one as well. 0: none
+  nlohmann::ordered_json identity;  ///< of the checkpoints
+  /// What dumps say of a frame; called on the thread that writes.
+  std::function<nlohmann::ordered_json(const FrameResult&)> describe;
+  FrameCallback on_frame;
+};
+
+/// Renders the frames that `progress` lacks, and writes their files: while the device works on a frame, those of the
+/// frame before are fetched and written on a thread of their own. The device waits where the disk is slower, so memory
+/// does not depend on the number of frames. A checkpoint is written behind the files of all frames it counts. Throws
+/// what rendering or writing throws, once the files of the frames rendered before are whole.
+void render_frames(Executor& executor, RunFolder& folder, RunProgress& progress, const FrameLoopOptions& options);
+
+}  // namespace lightloom::run
