@@ -50,6 +50,7 @@ ExitCode run_program(const std::vector<std::string>& arguments, const CommandCon
                 "Load a plug-in with pass types of one's own, before any command; also $LIGHTLOOM_PLUGINS, by ':'")
         .placeholder("FILE");
     add_render_command(program, context, arguments);
+    add_replay_command(program, context, arguments);
     add_check_command(program, context);
     add_plan_command(program, context);
     add_passes_command(program, context);

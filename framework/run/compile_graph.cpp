@@ -20,13 +20,17 @@ LinkEnvironment link_environment(const scene::Scene* scene) {
   return environment;
 }
 
+std::optional<Graph> link_text(const std::string& text, const std::filesystem::path& file, const PassRegistry& registry,
+                               const LinkOptions& options, const scene::Scene* scene, Diagnostics& diagnostics) {
+  const std::optional<GraphSpec> spec = parse_graph(text, file.string(), diagnostics);
+  if (!spec) return std::nullopt;
+  return link(*spec, registry, options, link_environment(scene), diagnostics);
+}
+
 std::optional<Plan> compile_graph(const std::filesystem::path& file, const PassRegistry& registry,
                                   const LinkOptions& options, const scene::Scene* scene, Diagnostics& diagnostics,
                                   const CompileOptions& compile_options) {
-  const std::string text = read_text_file(file);
-  const std::optional<GraphSpec> spec = parse_graph(text, file.string(), diagnostics);
-  if (!spec) return std::nullopt;
-  const std::optional<Graph> graph = link(*spec, registry, options, link_environment(scene), diagnostics);
+  const std::optional<Graph> graph = link_text(read_text_file(file), file, registry, options, scene, diagnostics);
   if (!graph) return std::nullopt;
   return compile(*graph, compile_options);
 }

@@ -14,6 +14,11 @@ namespace lightloom::run {
 /// What a graph is linked against for this scene; without one, a unit cube that has every feature.
 [[nodiscard]] LinkEnvironment link_environment(const scene::Scene* scene);
 
+/// Parses and links the text of a graph file; `file` is its name, for messages. Empty if `diagnostics` has errors.
+[[nodiscard]] std::optional<Graph> link_text(const std::string& text, const std::filesystem::path& file,
+                                             const PassRegistry& registry, const LinkOptions& options,
+                                             const scene::Scene* scene, Diagnostics& diagnostics);
+
 /// Reads, parses, links and compiles a graph file. Empty if `diagnostics` has errors. Throws Error(invalid_input) when
 /// the file cannot be read.
 [[nodiscard]] std::optional<Plan> compile_graph(const std::filesystem::path& file, const PassRegistry& registry,

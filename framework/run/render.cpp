@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "framework/base/error.hpp"
+#include "framework/base/file.hpp"
 #include "framework/base/hash.hpp"
 #include "framework/run/checkpoint.hpp"
 #include "framework/run/compile_graph.hpp"
@@ -12,6 +13,7 @@
 #include "framework/run/provenance.hpp"
 #include "framework/run/run_folder.hpp"
 #include "framework/run/run_progress.hpp"
+#include "framework/run/run_record.hpp"
 #include "framework/run/version.hpp"
 #include "framework/scene/content_hash.hpp"
 #include "framework/scene/scene.hpp"
@@ -24,6 +26,7 @@ using Json = nlohmann::ordered_json;
 /// What the steps of one render share.
 struct Run {
   const RenderRequest& request;
+  const std::string& graph_text;
   const scene::Scene& scene;
   const std::optional<scene::CameraPath>& path;
   std::string scene_hash;
@@ -39,9 +42,13 @@ Json run_record(const Run& run, const Executor& executor, const RunProgress& pro
   record["lightloom"] = version();
   record["commit"] = commit();
   record["command_line"] = request.command_line;
+  record["working_directory"] = std::filesystem::current_path().generic_string();
   record["plugins"] = plugin_records(request.plugins);
+  record["shaders"] = hex(shaders_hash(request.shaders));
   record["graph"] = graph_record(executor.plan());
   record["graph"]["file"] = request.graph.generic_string();
+  record["graph"]["text"] = run.graph_text;
+  record["link"] = link_record(request.link);
   record["scene"] = scene_record(run.scene);
   record["scene"]["content_hash"] = run.scene_hash;
   record["camera"] = run.scene.cameras[find_camera(run.scene, request.camera)].name;
@@ -147,19 +154,22 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
   const scene::Scene scene = scene::load_scene(request.scene);
   std::optional<scene::CameraPath> path;
   if (!request.camera_path.empty()) path = scene::read_camera_path(request.camera_path);
-  std::optional<Plan> plan = compile_graph(request.graph, registry, request.link, &scene, diagnostics, request.compile);
-  if (!plan) return false;
+  const std::string graph_text = read_text_file(request.graph);
+  const std::optional<Graph> graph = link_text(graph_text, request.graph, registry, request.link, &scene, diagnostics);
+  if (!graph) return false;
+  Plan plan = compile(*graph, request.compile);
   gpu::Device device(request.device);
   Run run{.request = request,
+          .graph_text = graph_text,
           .scene = scene,
           .path = path,
           .scene_hash = hex(scene::content_hash(request.scene)),
           .device = device,
           .total = request.last_frame - request.first_frame + 1,
           .identity = {}};
-  run.identity = identity_of(run, *plan);
+  run.identity = identity_of(run, plan);
   const std::optional<Checkpoint> checkpoint = find_checkpoint(run);
-  Executor executor(device, std::move(*plan), scene,
+  Executor executor(device, std::move(plan), scene,
                     {.shaders = request.shaders,
                      .camera = request.camera,
                      .camera_path = path,
