@@ -13,6 +13,7 @@ namespace lightloom::cli {
 void add_render_command(Command& program, const CommandContext& context, const std::vector<std::string>& arguments);
 /// Likewise.
 void add_replay_command(Command& program, const CommandContext& context, const std::vector<std::string>& arguments);
+void add_probe_command(Command& program, const CommandContext& context);
 void add_check_command(Command& program, const CommandContext& context);
 void add_plan_command(Command& program, const CommandContext& context);
 void add_passes_command(Command& program, const CommandContext& context);

@@ -51,6 +51,7 @@ ExitCode run_program(const std::vector<std::string>& arguments, const CommandCon
         .placeholder("FILE");
     add_render_command(program, context, arguments);
     add_replay_command(program, context, arguments);
+    add_probe_command(program, context);
     add_check_command(program, context);
     add_plan_command(program, context);
     add_passes_command(program, context);

@@ -15,6 +15,7 @@
 #include "framework/image/exr.hpp"
 #include "framework/image/npy.hpp"
 #include "framework/image/png.hpp"
+#include "framework/run/value_doc.hpp"
 
 namespace lightloom::run {
 namespace {
@@ -59,20 +60,8 @@ std::string samples_text(ImageDesc desc) {
   return {};
 }
 
-/// What the port table says of the image.
-std::string doc_of(const Graph& graph, const Value& value) {
-  const auto pass = std::find_if(graph.passes.begin(), graph.passes.end(),
-                                 [&](const GraphPass& candidate) { return candidate.name == value.pass; });
-  if (pass == graph.passes.end() || pass->type == nullptr) return {};
-  const Port* port = pass->type->find_port(value.port, value.scratch ? Direction::scratch : Direction::out);
-  if (port == nullptr) return {};
-  for (const PortPart& part : port->parts)
-    if (part.name == value.part && !part.doc.empty()) return part.doc;
-  return port->doc;
-}
-
 nlohmann::ordered_json describe(const Graph& graph, const Value& value) {
-  return {{"doc", doc_of(graph, value)},
+  return {{"doc", value_doc(graph, value)},
           {"channels", image::default_channel_names(value.desc, value.port, value.part)},
           {"format", format_info(value.desc.format).name},
           {"samples", samples_text(value.desc)},
