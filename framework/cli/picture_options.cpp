@@ -18,6 +18,12 @@ std::string check_folder(std::string_view text) {
 
 }  // namespace
 
+void add_shaders_option(Command& command, std::vector<std::filesystem::path>& folders) {
+  command.option("--shaders", folders, "Folder that is searched for shaders first: those there replace the program's")
+      .placeholder("DIR")
+      .check(check_folder);
+}
+
 void PictureOptions::add_graph_to(Command& command) {
   command.positional("GRAPH", graph, "Graph file (JSON)").required();
 }
@@ -36,9 +42,7 @@ void PictureOptions::add_to(Command& command) {
       .placeholder("SECONDS")
       .range(0, 1e6);
   group(command.option("--seed", seed, "Seed of all random numbers"));
-  command.option("--shaders", shaders, "Folder that is searched for shaders first: those there replace the program's")
-      .placeholder("DIR")
-      .check(check_folder);
+  add_shaders_option(command, shaders);
   changes.add_to(command);
 }
 

@@ -32,6 +32,9 @@ struct PictureOptions {
   [[nodiscard]] run::RenderRequest request(const CommandContext& context) const;
 };
 
+/// `--shaders`: folders to put before the program's own.
+void add_shaders_option(Command& command, std::vector<std::filesystem::path>& folders);
+
 /// The largest number that a frame can have; keeps six digits in file names.
 constexpr uint32_t kLastFrame = 999'999;
 

@@ -53,22 +53,54 @@ std::string texel_text(const run::ProbedTexel& probed) {
   return text + (finite ? "" : "   <-- not finite");
 }
 
-void print_texels(std::ostream& out, const char* kind, const std::vector<run::ProbedTexel>& texels, bool is_input) {
-  for (const run::ProbedTexel& probed : texels) {
-    out << "     " << kind << " " << probed.port << (is_input ? " = " + source_text(probed) : "");
-    if (probed.texel) out << " " << place_text(probed);
-    out << "  " << texel_text(probed) << "\n";
+void print_texel(std::ostream& out, const char* kind, const run::ProbedTexel& probed, bool is_input) {
+  out << "     " << kind << " " << probed.port << (is_input ? " = " + source_text(probed) : "");
+  if (probed.texel) out << " " << place_text(probed);
+  out << "  " << texel_text(probed) << "\n";
+}
+
+void print_texels(std::ostream& out, const char* kind, const std::vector<run::ProbedTexel>& texels) {
+  for (const run::ProbedTexel& probed : texels) print_texel(out, kind, probed, false);
+}
+
+std::string bundle_of(const std::string& name) {
+  const size_t point = name.rfind('.');
+  return point == std::string::npos ? std::string() : name.substr(0, point);
+}
+
+/// Bundles of this frame stand above, where they were written, and histories from before the first frame are black: a
+/// line each for the whole of them.
+void print_inputs(std::ostream& out, const std::vector<run::ProbedTexel>& inputs, uint32_t history_length) {
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    const run::ProbedTexel& probed = inputs[i];
+    size_t end = i + 1;
+    const std::string bundle = bundle_of(probed.port);
+    const bool whole_bundle = !bundle.empty() && probed.age == 0;
+    const bool too_old = probed.age > history_length;
+    while (end < inputs.size() && ((whole_bundle && inputs[end].age == 0 && bundle_of(inputs[end].port) == bundle) ||
+                                   (too_old && inputs[end].port == probed.port && inputs[end].age > probed.age)))
+      ++end;
+    if (end - i == 1 || (!whole_bundle && !too_old)) {
+      print_texel(out, "in ", probed, true);
+      continue;
+    }
+    if (too_old)
+      out << "     in  " << probed.port << " = " << source_text(probed) << ".." << inputs[end - 1].age
+          << "  zeros: there was no frame yet\n";
+    else
+      out << "     in  " << bundle << " = " << bundle_of(probed.value) << "  as above\n";
+    i = end - 1;
   }
 }
 
-void print_pass(std::ostream& out, size_t number, const run::ProbedPass& pass) {
+void print_pass(std::ostream& out, size_t number, const run::ProbedPass& pass, uint32_t history_length) {
   out << std::setw(3) << number << ". " << pass.name << " (" << pass.type << ")";
   for (const auto& [name, value] : pass.params) out << " " << name << "=" << to_string(value);
   out << "\n";
   if (!pass.once.empty()) out << "     ran once, in the first frame: " << pass.once << "\n";
-  print_texels(out, "in ", pass.inputs, true);
-  print_texels(out, "out", pass.outputs, false);
-  print_texels(out, "tmp", pass.scratch, false);
+  print_inputs(out, pass.inputs, history_length);
+  print_texels(out, "out", pass.outputs);
+  print_texels(out, "tmp", pass.scratch);
 }
 
 void print_frame(std::ostream& out, const run::ProbedFrame& frame) {
@@ -79,7 +111,7 @@ void print_frame(std::ostream& out, const run::ProbedFrame& frame) {
         << frame.point_source << "; volumes are shown at the voxel that holds it\n";
   else
     out << frame.point_source << "\n";
-  for (size_t i = 0; i < frame.passes.size(); ++i) print_pass(out, i + 1, frame.passes[i]);
+  for (size_t i = 0; i < frame.passes.size(); ++i) print_pass(out, i + 1, frame.passes[i], frame.history_length);
 }
 
 void print_remarks(std::ostream& out, const char* what, const std::vector<PassRemark>& remarks) {

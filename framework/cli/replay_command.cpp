@@ -7,6 +7,7 @@
 #include "framework/cli/commands.hpp"
 #include "framework/cli/graph_options.hpp"
 #include "framework/cli/messages.hpp"
+#include "framework/cli/picture_options.hpp"
 #include "framework/run/replay.hpp"
 
 namespace lightloom::cli {
@@ -20,6 +21,7 @@ struct ReplayOptions {
   std::filesystem::path scene;
   std::vector<Assignment> sets;
   std::vector<Assignment> swaps;
+  std::vector<std::filesystem::path> shaders;
   bool compare = false;
   uint32_t repeat = 1;
   std::filesystem::path out;
@@ -43,6 +45,7 @@ run::ReplayRequest make_request(const ReplayOptions& options, const CommandConte
   request.out = options.out;
   request.device = {options.device, options.validate};
   request.shaders = run::shader_folders_with(context.plugins);
+  request.shaders.sources.insert(request.shaders.sources.begin(), options.shaders.begin(), options.shaders.end());
   request.plugins = context.plugins;
   request.command_line = {"lightloom"};
   request.command_line.insert(request.command_line.end(), arguments.begin(), arguments.end());
@@ -135,6 +138,7 @@ void add_replay_command(Command& program, const CommandContext& context, const s
                      "pattern)"));
   changes(command.option("--swap", options->swaps, "Exchange the type of the passes that match"))
       .placeholder("GLOB=TYPE");
+  add_shaders_option(command, options->shaders);
   command.option("--device", options->device, "Device by index or part of its name; 'lightloom devices' lists them")
       .placeholder("NAME");
   command.flag("--validate", options->validate, "Check each Vulkan call by the validation layers (slow)");

@@ -180,8 +180,9 @@ void probe_frames(const ProbeRequest& request, Prober& prober, Executor& executo
   const RenderRequest& render = request.render;
   executor.look_at(prober.offsets());
   for (uint32_t frame = render.first_frame; frame <= render.last_frame; ++frame) {
-    FrameResult result = executor.run_frame(frame);
-    if (request.every || frame == render.last_frame) {
+    const bool reported = request.every || frame == render.last_frame;
+    FrameResult result = executor.run_frame(frame, {.outputs = reported, .captures = reported});
+    if (reported) {
       if (prober.find_voxels(result)) {
         executor.look_at(prober.offsets());
         result = executor.repeat_frame();
