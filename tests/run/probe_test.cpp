@@ -168,7 +168,9 @@ TEST_F(ProbeTest, TheLastFrameAloneIsTheSame) {
     for (size_t i = 0; i < one.passes[pass].outputs.size(); ++i) {
       const auto &a = one.passes[pass].outputs[i].texel, &b = other.passes[pass].outputs[i].texel;
       ASSERT_EQ(a.has_value(), b.has_value());
-      if (a) EXPECT_EQ(a->texels, b->texels) << one.passes[pass].outputs[i].value;
+      if (a) {
+        EXPECT_EQ(a->texels, b->texels) << one.passes[pass].outputs[i].value;
+      }
     }
   }
 }

@@ -189,7 +189,7 @@ TEST_F(ReplayTest, AnEditedGraphIsTakenWhereItIsAskedFor) {
   const std::string file = (folder_ / "graph.json").string();
   std::ofstream(file) << graph.dump(1);
   render_run(render_request(file, "run"));
-  graph["passes"]["trace"]["params"]["bounces"] = 1;
+  graph["params"]["bounces"] = 1;
   std::ofstream(file) << graph.dump(1);
   const ReplaySummary as_recorded = replay_run(replay_request("run", {"trace"}));
   expect_bits(as_recorded);
