@@ -49,10 +49,11 @@ class ContentHasher {
   [[nodiscard]] uint64_t value() const { return hasher_.value(); }
 
  private:
-  /// A string that is the path of a file is taken for the name of one.
+  /// A string that is the path of a file is taken for the name of one, but for the schema, which editors read.
   void add_named(const nlohmann::ordered_json& node, const std::filesystem::path& folder) {
     if (node.is_structured())
-      for (const nlohmann::ordered_json& child : node) add_named(child, folder);
+      for (const auto& [key, child] : node.items())
+        if (key != "$schema") add_named(child, folder);
     if (!node.is_string()) return;
     const auto& text = node.get_ref<const std::string&>();
     if (text.empty() || text.size() > kLongestPath) return;
