@@ -16,6 +16,7 @@ struct ProbeOptions {
   std::string pixel;
   bool every = false;
   bool json = false;
+  bool explain = false;
   std::string device;
   bool no_alias = false;
   bool validate = false;
@@ -56,7 +57,7 @@ ExitCode probe(const ProbeOptions& options, const CommandContext& context) {
   if (options.json)
     context.out << probe_json(report, pixel.x, pixel.y).dump(2) << "\n";
   else
-    print_probe(context.out, report, pixel.x, pixel.y);
+    print_probe(context.out, report, pixel.x, pixel.y, options.explain);
   return ExitCode::done;
 }
 
@@ -82,6 +83,7 @@ void add_probe_command(Command& program, const CommandContext& context) {
       });
   options->picture.add_to(command);
   command.flag("--every", options->every, "Report every frame instead of the last one").group("Scene and frames");
+  command.flag("--explain", options->explain, "Also print what each pass says that its values mean");
   command.flag("--json", options->json, "Print JSON");
   command.option("--device", options->device, "Device by index or part of its name; 'lightloom devices' lists them")
       .placeholder("NAME");

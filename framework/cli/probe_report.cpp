@@ -59,8 +59,11 @@ void print_texel(std::ostream& out, const char* kind, const run::ProbedTexel& pr
   out << "  " << texel_text(probed) << "\n";
 }
 
-void print_texels(std::ostream& out, const char* kind, const std::vector<run::ProbedTexel>& texels) {
-  for (const run::ProbedTexel& probed : texels) print_texel(out, kind, probed, false);
+void print_texels(std::ostream& out, const char* kind, const std::vector<run::ProbedTexel>& texels, bool explain) {
+  for (const run::ProbedTexel& probed : texels) {
+    print_texel(out, kind, probed, false);
+    if (explain && !probed.doc.empty()) out << "           " << probed.doc << "\n";
+  }
 }
 
 std::string bundle_of(const std::string& name) {
@@ -93,17 +96,17 @@ void print_inputs(std::ostream& out, const std::vector<run::ProbedTexel>& inputs
   }
 }
 
-void print_pass(std::ostream& out, size_t number, const run::ProbedPass& pass, uint32_t history_length) {
+void print_pass(std::ostream& out, size_t number, const run::ProbedPass& pass, uint32_t history_length, bool explain) {
   out << std::setw(3) << number << ". " << pass.name << " (" << pass.type << ")";
   for (const auto& [name, value] : pass.params) out << " " << name << "=" << to_string(value);
   out << "\n";
   if (!pass.once.empty()) out << "     ran once, in the first frame: " << pass.once << "\n";
   print_inputs(out, pass.inputs, history_length);
-  print_texels(out, "out", pass.outputs);
-  print_texels(out, "tmp", pass.scratch);
+  print_texels(out, "out", pass.outputs, explain);
+  print_texels(out, "tmp", pass.scratch, explain);
 }
 
-void print_frame(std::ostream& out, const run::ProbedFrame& frame) {
+void print_frame(std::ostream& out, const run::ProbedFrame& frame, bool explain) {
   out << "\nframe " << frame.frame << ", " << frame.time << " s; histories hold " << frame.history_length
       << (frame.history_length == 1 ? " earlier frame\n" : " earlier frames\n");
   if (frame.point)
@@ -111,7 +114,8 @@ void print_frame(std::ostream& out, const run::ProbedFrame& frame) {
         << frame.point_source << "; volumes are shown at the voxel that holds it\n";
   else
     out << frame.point_source << "\n";
-  for (size_t i = 0; i < frame.passes.size(); ++i) print_pass(out, i + 1, frame.passes[i], frame.history_length);
+  for (size_t i = 0; i < frame.passes.size(); ++i)
+    print_pass(out, i + 1, frame.passes[i], frame.history_length, explain);
 }
 
 void print_remarks(std::ostream& out, const char* what, const std::vector<PassRemark>& remarks) {
@@ -159,7 +163,7 @@ Json texels_json(const std::vector<run::ProbedTexel>& texels, bool is_input) {
 
 Json pass_json(const run::ProbedPass& pass) {
   Json params = Json::object();
-  for (const auto& [name, value] : pass.params) std::visit([&](const auto& held) { params[name] = held; }, value);
+  for (const auto& param : pass.params) std::visit([&](const auto& held) { params[param.first] = held; }, param.second);
   return {{"pass", pass.name},
           {"type", pass.type},
           {"once", pass.once.empty() ? Json() : Json(pass.once)},
@@ -189,10 +193,10 @@ Json remarks_json(const std::vector<PassRemark>& remarks) {
 
 }  // namespace
 
-void print_probe(std::ostream& out, const run::ProbeReport& report, uint32_t x, uint32_t y) {
+void print_probe(std::ostream& out, const run::ProbeReport& report, uint32_t x, uint32_t y, bool explain) {
   out << "pixel " << x << "," << y << " of " << report.graph << ", view " << report.view.width << "x"
       << report.view.height << "\n";
-  for (const run::ProbedFrame& frame : report.frames) print_frame(out, frame);
+  for (const run::ProbedFrame& frame : report.frames) print_frame(out, frame, explain);
   if (!report.culled.empty() || !report.bypassed.empty()) out << "\n";
   print_remarks(out, "did not run:", report.culled);
   print_remarks(out, "is disabled:", report.bypassed);

@@ -47,8 +47,7 @@ Graph watched_graph(const Graph& graph, const std::vector<bool>& watched) {
 class Prober {
  public:
   Prober(const ProbeRequest& request, const scene::Scene& scene, const Graph& graph, const std::vector<bool>& watched)
-      : request_(request),
-        scene_(scene),
+      : scene_(scene),
         graph_(graph),
         watched_(watched),
         position_(surface_position(graph, watched)),
@@ -155,7 +154,6 @@ class Prober {
     return text;
   }
 
-  const ProbeRequest& request_;
   const scene::Scene& scene_;
   const Graph& graph_;
   const std::vector<bool>& watched_;

@@ -45,6 +45,7 @@ run::ProbeReport sample_report() {
   pass.inputs = {floats("surface.a", "g.surface.a", 0, {1}), floats("surface.b", "g.surface.b", 0, {2}),
                  floats("past", "p.out", 1, {0.1f}), floats("past", "p.out", 2, {0}), floats("past", "p.out", 3, {0})};
   pass.outputs = {floats("out", "p.out", 0, {NAN, infinity, -infinity, 0.1f}), unread};
+  pass.outputs[0].doc = "what p writes";
   pass.scratch = {voxel};
   run::ProbeReport report{.graph = "toy",
                           .view = {16, 16, 1},
@@ -65,6 +66,10 @@ TEST(ProbeReport, TextMarksWhatIsNoNumberAndSaysWhatDidNotRun) {
   std::ostringstream out;
   print_probe(out, sample_report(), 6, 5);
   const std::string text = out.str();
+  EXPECT_THAT(text, Not(HasSubstr("what p writes")));
+  std::ostringstream explained;
+  print_probe(explained, sample_report(), 6, 5, true);
+  EXPECT_THAT(explained.str(), HasSubstr("what p writes\n"));
   for (const char* piece :
        {"pixel 6,5 of toy, view 16x16\n", "frame 7, 0.5 s; histories hold 1 earlier frame\n", "sees (1, 2, 3) m",
         "1. p (thing) taps=3 sharp=true\n", "in  surface = g.surface  as above\n",
