@@ -62,8 +62,9 @@ std::string barrier_subject(const Graph& graph, ValueId value) {
   return value == kEverything ? "everything" : value_name(graph.values[value]);
 }
 
-Access access_of(Observer observer) {
-  return observer == Observer::scan ? Access::compute_sampled_read : Access::transfer_read;
+Access access_of(Observer /*observer*/) {
+  // A scan searches a copy: raw bits, which no conversion on the way to a shader has touched.
+  return Access::transfer_read;
 }
 
 std::string_view to_string(Observer observer) {

@@ -17,6 +17,15 @@ Plan checked(Plan plan, const gpu::Device& device) {
   return plan;
 }
 
+bool has_scans(const Plan& plan) {
+  const auto scanned = [](const PlanStep& step) {
+    return std::any_of(step.observations.begin(), step.observations.end(),
+                       [](const Observation& observation) { return observation.observer == Observer::scan; });
+  };
+  return std::any_of(plan.once.begin(), plan.once.end(), scanned) ||
+         std::any_of(plan.steps.begin(), plan.steps.end(), scanned);
+}
+
 uint32_t query_count(size_t steps) {
   return static_cast<uint32_t>(steps) * 2;
 }
@@ -43,8 +52,11 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
       shaders_(device, {.include_directories = options.shaders.sources, .cache_directory = options.shaders.cache}),
       descriptors_(device),
       timestamps_(device, query_count(std::max<size_t>(plan_.steps.size() + plan_.once.size(), 1))) {
+  if (options.poison) poison_.emplace(device_, plan_, *options.poison);
+  if (has_scans(plan_)) scan_.emplace(device_, plan_, shaders_, options.poison);
   device_.run_commands([&](VkCommandBuffer commands) {
     images_.record_initialisation(commands);
+    if (poison_) poison_->record_initialisation(commands, images_);
     gpu::record_full_barrier(commands);
   });
 }
@@ -98,6 +110,7 @@ FinishedFrame Executor::finish() {
   under_way_.reset();
   device_.wait_commands();
   collect_times(frame.result);
+  if (scan_) frame.result.scanned = scan_->found();
   ++frame_count_;
   started_ = true;
   return frame;
@@ -169,6 +182,7 @@ void Executor::record_prologue(VkCommandBuffer commands) const {
 void Executor::record_frame(gpu::CommandSession& session, const FrameCopies& copies) {
   const bool first = !started_;
   timestamps_.reset(session.get());
+  if (scan_) scan_->record_begin(session.get());
   if (!initialised_) record_prologue(session.get());
   initialised_ = true;
   record_barriers(session.get(), plan_.frame_start);
@@ -180,6 +194,7 @@ void Executor::record_frame(gpu::CommandSession& session, const FrameCopies& cop
   }
   record_observations(session.get(), plan_.opening_observations, copies);
   record_steps(session, plan_.steps, 0, copies);
+  if (scan_) scan_->record_end(session.get());
   Readback::record_end(session.get());
 }
 
@@ -190,6 +205,7 @@ void Executor::record_steps(gpu::CommandSession& session, const std::vector<Plan
     const GraphPass& pass = plan_.graph.passes[step.pass];
     record_barriers(session.get(), step.barriers);
     images_.record_takeovers(session.get(), step.barriers);
+    if (poison_) poison_->record_before(session.get(), pass, images_, frame_count_);
     record_timestamp(session.get(), query++);
     if (pass.type->host)
       run_host_pass(session, pass);
@@ -197,6 +213,7 @@ void Executor::record_steps(gpu::CommandSession& session, const std::vector<Plan
       record_pass(session.get(), pass);
     record_timestamp(session.get(), query++);
     record_observations(session.get(), step.observations, copies);
+    if (poison_) poison_->record_after(session.get(), pass, images_, frame_count_);
   }
 }
 
@@ -229,11 +246,13 @@ void Executor::record_timestamp(VkCommandBuffer commands, uint32_t query) const 
 }
 
 void Executor::record_observations(VkCommandBuffer commands, const std::vector<Observation>& observations,
-                                   const FrameCopies& copies) const {
+                                   const FrameCopies& copies) {
   for (const Observation& observation : observations) {
     // Also where nothing is copied: later barriers of the plan may build on these.
     record_barriers(commands, observation.barriers);
-    if (observation.observer == Observer::read_back)
+    if (observation.observer == Observer::scan)
+      scan_->record(commands, observation, images_, frame_count_);
+    else
       readback_.record(commands, observation, images_, frame_count_, copies);
   }
 }

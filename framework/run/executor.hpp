@@ -15,11 +15,13 @@
 #include "framework/run/frame_result.hpp"
 #include "framework/run/host_passes.hpp"
 #include "framework/run/pass_recorder.hpp"
+#include "framework/run/poison.hpp"
 #include "framework/run/readback.hpp"
 #include "framework/run/scene_memo.hpp"
 #include "framework/run/scene_resources.hpp"
 #include "framework/run/shader_folders.hpp"
 #include "framework/run/value_images.hpp"
+#include "framework/run/value_scan.hpp"
 
 namespace lightloom::run {
 
@@ -31,6 +33,7 @@ struct ExecutorOptions {
   double frames_per_second = 30;                     ///< animation time of frame f is f / frames_per_second
   std::optional<double> frozen_time = std::nullopt;  ///< every frame shows the scene at this time [s]
   bool share_memory = true;                          ///< values that are not live at the same time share memory
+  std::optional<PoisonTone> poison = std::nullopt;   ///< fills what nobody wrote; the bits stay the same
   /// What host passes derive from the scene, to be shared by executors on the same one; empty: the executor's own.
   std::shared_ptr<SceneMemo> memo = nullptr;
   bool single_texels = false;  ///< of what is read back one texel each comes to the host: Executor::look_at
@@ -105,7 +108,7 @@ class Executor {
   void run_host_pass(gpu::CommandSession& session, const GraphPass& pass);
   void record_timestamp(VkCommandBuffer commands, uint32_t query) const;
   void record_observations(VkCommandBuffer commands, const std::vector<Observation>& observations,
-                           const FrameCopies& copies) const;
+                           const FrameCopies& copies);
   void collect_times(FrameResult& result) const;
   [[nodiscard]] std::vector<PassTime> times_of(const std::vector<PlanStep>& steps, const std::vector<double>& stamps,
                                                size_t first_query) const;
@@ -119,6 +122,8 @@ class Executor {
   std::shared_ptr<SceneMemo> memo_;
   Placeholders placeholders_;
   ShaderLibrary shaders_;
+  std::optional<Poison> poison_;
+  std::optional<ValueScan> scan_;  ///< where the plan has any
   gpu::DescriptorAllocator descriptors_;
   gpu::TimestampPool timestamps_;
   std::map<std::string, double, std::less<>> host_milliseconds_;  ///< by pass, of its last run

@@ -6,6 +6,7 @@
 
 #include "framework/image/host_image.hpp"
 #include "framework/run/frame_state.hpp"
+#include "framework/run/scanned_value.hpp"
 
 namespace lightloom::run {
 
@@ -39,10 +40,11 @@ struct FrameWants {
 struct FrameResult {
   uint32_t frame = 0;
   FrameConditions conditions;
-  std::vector<NamedImage> outputs;   ///< in the order of the graph's outputs
-  std::vector<NamedImage> captures;  ///< in the order of the plan's captures
-  std::vector<PassTime> times;       ///< of what every frame runs, in execution order
-  std::vector<PassTime> once_times;  ///< of what the first frame alone runs; empty in the others
+  std::vector<NamedImage> outputs;    ///< in the order of the graph's outputs
+  std::vector<NamedImage> captures;   ///< in the order of the plan's captures
+  std::vector<PassTime> times;        ///< of what every frame runs, in execution order
+  std::vector<PassTime> once_times;   ///< of what the first frame alone runs; empty in the others
+  std::vector<ScannedValue> scanned;  ///< where the plan has scans, in execution order
 };
 
 }  // namespace lightloom::run
