@@ -23,6 +23,7 @@ struct RenderOptions {
   std::string device;
   bool no_alias = false;
   bool validate = false;
+  run::CheckOptions checks;
 };
 
 /// The frames that an option chooses among those that are rendered, at least one.
@@ -43,6 +44,7 @@ run::RenderRequest make_request(const RenderOptions& options, const CommandConte
   if (options.dump_frames && options.picture.changes.dumps.empty())
     throw Error(ExitCode::usage, "option '--dump-frames' needs '--dump', which says what to write");
   request.share_memory = !options.no_alias;
+  request.checks = options.checks;
   request.checkpoint_every = options.checkpoint_every;
   request.resume = options.resume;
   request.out = options.out.empty() ? std::filesystem::path("out") / options.picture.graph.stem() : options.out;
@@ -88,7 +90,8 @@ ExitCode render(const RenderOptions& options, const CommandContext& context,
   if (!rendered) return exit_code_of(diagnostics);
   for (const std::string& warning : summary.warnings) print_warning(context.err, warning);
   report(summary, frames, context.out);
-  return ExitCode::done;
+  for (const std::string& failure : summary.failures) print_error(context.err, failure, "");
+  return summary.failures.empty() ? ExitCode::done : ExitCode::run_failed;
 }
 
 void add_frame_choices(Command& command, RenderOptions& options) {
@@ -138,6 +141,21 @@ void add_render_command(Command& program, const CommandContext& context, const s
       "--no-alias", options->no_alias,
       "Give every value memory of its own, also those that are not live at the same time; the pictures are the "
       "same");
+  command
+      .flag("--find-nan", options->checks.find_nan,
+            "Look for NaN and infinity in every value of every frame, and name the passes that made them; the pictures "
+            "are the same")
+      .group("Checks");
+  command
+      .flag("--stop-at-nan", options->checks.stop_at_nan,
+            "The same, and end after the frame with the first one, with exit code 1")
+      .group("Checks");
+  command
+      .flag("--poison", options->checks.poison,
+            "Fill every image with rare numbers before it is written and after its last use, and name the passes that "
+            "read what nobody wrote, or leave texels unwritten: then with exit code 1. Renders everything twice; the "
+            "pictures are the same")
+      .group("Checks");
   command.flag("--validate", options->validate, "Check each Vulkan call by the validation layers (slow)");
   command.action([options, &context, arguments] { return render(*options, context, arguments); });
 }

@@ -24,8 +24,11 @@ class FrameLoop {
   void run() {
     if (progress_.frames() < options_.total) start();
     while (progress_.frames() < options_.total) {
-      write(finish());
+      FinishedFrame frame = finish();
+      const bool go_on = !options_.go_on_after || options_.go_on_after(frame.result);
+      write(std::move(frame));
       if (options_.on_frame) options_.on_frame(progress_.frames(), options_.total);
+      if (!go_on) break;
       // Before the frame is started, not after, as each frame under way has read-back buffers of its own.
       writing_.wait_for_room();
       if (progress_.frames() < options_.total) start();

@@ -23,13 +23,17 @@ struct FrameLoopOptions {
   nlohmann::ordered_json identity;  ///< of the checkpoints
   /// What dumps say of a frame; called on the thread that writes.
   std::function<nlohmann::ordered_json(const FrameResult&)> describe;
+  /// Shown each frame, without its images, while the device has nothing to do; is the run to go on after it? Empty:
+  /// yes.
+  std::function<bool(const FrameResult&)> go_on_after;
   FrameCallback on_frame;
 };
 
-/// Renders the frames that `progress` lacks, and writes their files: while the device works on a frame, those of the
-/// frame before are fetched and written on a thread of their own. The device waits where the disk is slower, so memory
-/// does not depend on the number of frames. A checkpoint is written behind the files of all frames it counts. Throws
-/// what rendering or writing throws, once the files of the frames rendered before are whole.
+/// Renders the frames that `progress` lacks, or those up to the one after which it is not to go on, and writes their
+/// files: while the device works on a frame, those of the frame before are fetched and written on a thread of their
+/// own. The device waits where the disk is slower, so memory does not depend on the number of frames. A checkpoint is
+/// written behind the files of all frames it counts. Throws what rendering or writing throws, once the files of the
+/// frames rendered before are whole.
 void render_frames(Executor& executor, RunFolder& folder, RunProgress& progress, const FrameLoopOptions& options);
 
 }  // namespace lightloom::run

@@ -18,8 +18,7 @@ std::map<ValueId, const ScannedValue*> by_value(std::span<const ScannedValue> sc
 
 }  // namespace
 
-void PoisonCheck::add(uint32_t frame, std::span<const ScannedValue> nan_run,
-                      std::span<const ScannedValue> number_run) {
+void PoisonCheck::add(uint32_t frame, std::span<const ScannedValue> nan_run, std::span<const ScannedValue> number_run) {
   marks_.begin_frame();
   const std::map<ValueId, const ScannedValue*> one = by_value(nan_run);
   const std::map<ValueId, const ScannedValue*> other = by_value(number_run);

@@ -11,6 +11,7 @@
 #include "framework/run/executor.hpp"
 #include "framework/run/frame_loop.hpp"
 #include "framework/run/provenance.hpp"
+#include "framework/run/run_checks.hpp"
 #include "framework/run/run_folder.hpp"
 #include "framework/run/run_progress.hpp"
 #include "framework/run/run_record.hpp"
@@ -35,7 +36,7 @@ struct Run {
   Json identity;       ///< identity_of
 };
 
-Json run_record(const Run& run, const Executor& executor, const RunProgress& progress,
+Json run_record(const Run& run, const Executor& executor, const RunChecks& checks, const RunProgress& progress,
                 const std::vector<std::string>& warnings) {
   const RenderRequest& request = run.request;
   Json record;
@@ -69,6 +70,7 @@ Json run_record(const Run& run, const Executor& executor, const RunProgress& pro
   record["frame_wall_ms"] = {{"median", median(progress.wall_milliseconds)}, {"frames", progress.wall_milliseconds}};
   record["hoisted"] = once_records(executor.plan(), progress.once_times);
   record["passes"] = pass_records(executor.plan(), progress.pass_times);
+  checks.add_to(record);
   record["warnings"] = warnings;
   return record;
 }
@@ -119,7 +121,7 @@ RunFolder open_folder(const RenderRequest& request, const std::optional<Checkpoi
   return {request.out, request.dump_format, checkpoint->folder};
 }
 
-FrameLoopOptions loop_options(const Run& run, const FrameCallback& on_frame) {
+FrameLoopOptions loop_options(const Run& run, RunChecks& checks, const FrameCallback& on_frame) {
   const RenderRequest& request = run.request;
   return {
       .first_frame = request.first_frame,
@@ -129,6 +131,11 @@ FrameLoopOptions loop_options(const Run& run, const FrameCallback& on_frame) {
       .checkpoint_every = request.checkpoint_every,
       .identity = run.identity,
       .describe = [&run](const FrameResult& frame) { return frame_record(frame, run.request.seed, run.scene.bounds); },
+      .go_on_after =
+          [&checks](const FrameResult& frame) {
+            checks.add(frame);
+            return !checks.stop();
+          },
       .on_frame = on_frame};
 }
 
@@ -157,7 +164,9 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
   const std::string graph_text = read_text_file(request.graph);
   const std::optional<Graph> graph = link_text(graph_text, request.graph, registry, request.link, &scene, diagnostics);
   if (!graph) return false;
-  Plan plan = compile(*graph, request.compile);
+  CompileOptions compile_options = request.compile;
+  compile_options.scan = compile_options.scan || request.checks.any();
+  Plan plan = compile(*graph, compile_options);
   gpu::Device device(request.device);
   Run run{.request = request,
           .graph_text = graph_text,
@@ -169,27 +178,35 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
           .identity = {}};
   run.identity = identity_of(run, plan);
   const std::optional<Checkpoint> checkpoint = find_checkpoint(run);
-  Executor executor(device, std::move(plan), scene,
-                    {.shaders = request.shaders,
-                     .camera = request.camera,
-                     .camera_path = path,
-                     .seed = request.seed,
-                     .frames_per_second = request.frames_per_second,
-                     .frozen_time = request.frozen_time,
-                     .share_memory = request.share_memory});
-  if (checkpoint) executor.restore(checkpoint->state);
+  const ExecutorOptions options = with_checks({.shaders = request.shaders,
+                                               .camera = request.camera,
+                                               .camera_path = path,
+                                               .seed = request.seed,
+                                               .frames_per_second = request.frames_per_second,
+                                               .frozen_time = request.frozen_time,
+                                               .share_memory = request.share_memory,
+                                               .memo = std::make_shared<SceneMemo>()},
+                                              request.checks);
+  RunChecks checks(request.checks, device, plan, scene, options);
+  Executor executor(device, std::move(plan), scene, options);
+  if (checkpoint) {
+    executor.restore(checkpoint->state);
+    checks.resume(checkpoint->state);
+  }
   RunFolder folder = open_folder(request, checkpoint);
   RunProgress progress = checkpoint ? checkpoint->progress : RunProgress{};
   summary.frames_resumed = progress.frames();
   if (progress.frames() == 0 && !executor.plan().graph.captures.empty()) folder.write_moving_triangles(scene);
-  render_frames(executor, folder, progress, loop_options(run, on_frame));
+  render_frames(executor, folder, progress, loop_options(run, checks, on_frame));
   summary.folder = folder.path();
   summary.images = pictures(folder);
   summary.warnings = scene.warnings;
-  for (const std::vector<std::string>& more : {executor.scene_warnings(), validation_warnings(device)})
+  for (const std::vector<std::string>& more :
+       {executor.scene_warnings(), checks.warnings(), validation_warnings(device)})
     summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
+  summary.failures = checks.failures();
   summary.milliseconds_per_frame = median(progress.wall_milliseconds);
-  folder.finish(run_record(run, executor, progress, summary.warnings));
+  folder.finish(run_record(run, executor, checks, progress, summary.warnings));
   return true;
 }
 

@@ -10,6 +10,7 @@
 #include "framework/graph/link.hpp"
 #include "framework/graph/pass_type.hpp"
 #include "framework/graph/plan.hpp"
+#include "framework/run/check_options.hpp"
 #include "framework/run/frame_loop.hpp"
 #include "framework/run/plugins.hpp"
 #include "framework/run/run_folder.hpp"
@@ -23,6 +24,7 @@ struct RenderRequest {
   std::filesystem::path scene;
   LinkOptions link;                   ///< variants, disables, swaps, sets, captures (--dump), view size
   CompileOptions compile;             ///< how the graph is executed
+  CheckOptions checks;                ///< what to look for in every value
   std::string camera;                 ///< empty: the scene's first
   std::filesystem::path camera_path;  ///< keyframes that the camera follows; empty: it does what the scene says
   uint32_t seed = 0;
@@ -49,6 +51,7 @@ struct RenderSummary {
   std::filesystem::path folder;
   std::vector<std::filesystem::path> images;  ///< the `image` output of each frame, or the first output's files
   std::vector<std::string> warnings;          ///< of the graph and the scene, and what the validation layers said
+  std::vector<std::string> failures;          ///< of the checks: why the render counts as failed
   uint32_t frames_resumed = 0;                ///< of an interrupted run that were there already
   double milliseconds_per_frame = 0;          ///< median wall time
 };

@@ -27,7 +27,9 @@ void RunChecks::resume(const ExecutorState& state) {
 
 void RunChecks::add(const FrameResult& result) {
   if (watch_) watch_->add(result.frame, result.scanned);
-  if (poison_) poison_->add(result.frame, result.scanned, twin_->run_frame(result.frame).scanned);
+  if (!poison_) return;
+  const FrameResult other = twin_->run_frame(result.frame, {.outputs = false, .captures = false});
+  poison_->add(result.frame, result.scanned, other.scanned);
 }
 
 std::vector<std::string> RunChecks::warnings() const {

@@ -5,19 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "framework/run/check_options.hpp"
 #include "framework/run/executor.hpp"
 #include "framework/run/non_finite.hpp"
 #include "framework/run/poison_check.hpp"
 
 namespace lightloom::run {
-
-/// What a render is to look for in its values; none of it changes a bit of them.
-struct CheckOptions {
-  bool find_nan = false;     ///< name the passes that make NaN or infinity
-  bool stop_at_nan = false;  ///< the same, and end after the frame with the first
-  bool poison = false;       ///< name the passes that read, or leave, what nobody wrote
-  [[nodiscard]] bool any() const { return find_nan || stop_at_nan || poison; }
-};
 
 /// What the render's own executor is told for them.
 [[nodiscard]] ExecutorOptions with_checks(ExecutorOptions options, const CheckOptions& checks);
