@@ -66,8 +66,8 @@ std::string milliseconds_text(double milliseconds) {
   return text.str() + " ms";
 }
 
-void report(const run::RenderSummary& summary, uint32_t frames, std::ostream& out) {
-  out << frames << (frames == 1 ? " frame in " : " frames in ") << summary.folder.string() << ", "
+void report(const run::RenderSummary& summary, std::ostream& out) {
+  out << summary.frames << (summary.frames == 1 ? " frame in " : " frames in ") << summary.folder.string() << ", "
       << milliseconds_text(summary.milliseconds_per_frame) << " a frame (median)";
   if (summary.frames_resumed > 0) out << "; " << summary.frames_resumed << " were there already";
   out << '\n';
@@ -89,7 +89,7 @@ ExitCode render(const RenderOptions& options, const CommandContext& context,
   print_diagnostics(context.err, diagnostics);
   if (!rendered) return exit_code_of(diagnostics);
   for (const std::string& warning : summary.warnings) print_warning(context.err, warning);
-  report(summary, frames, context.out);
+  report(summary, context.out);
   for (const std::string& failure : summary.failures) print_error(context.err, failure, "");
   return summary.failures.empty() ? ExitCode::done : ExitCode::run_failed;
 }

@@ -55,7 +55,7 @@ Json run_record(const Run& run, const Executor& executor, const RunChecks& check
   record["camera"] = run.scene.cameras[find_camera(run.scene, request.camera)].name;
   record["camera_path"] = camera_path_record(run.path);
   record["seed"] = request.seed;
-  record["frames"] = {{"first", request.first_frame}, {"last", request.last_frame}};
+  record["frames"] = {{"first", request.first_frame}, {"last", request.first_frame + progress.frames() - 1}};
   record["resumed_at"] = progress.resumed_at;
   record["frames_per_second"] = request.frames_per_second;
   record["frozen_time"] = request.frozen_time ? Json(*request.frozen_time) : Json();
@@ -205,6 +205,7 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
        {executor.scene_warnings(), checks.warnings(), validation_warnings(device)})
     summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
   summary.failures = checks.failures();
+  summary.frames = progress.frames();
   summary.milliseconds_per_frame = median(progress.wall_milliseconds);
   folder.finish(run_record(run, executor, checks, progress, summary.warnings));
   return true;

@@ -52,6 +52,7 @@ struct RenderSummary {
   std::vector<std::filesystem::path> images;  ///< the `image` output of each frame, or the first output's files
   std::vector<std::string> warnings;          ///< of the graph and the scene, and what the validation layers said
   std::vector<std::string> failures;          ///< of the checks: why the render counts as failed
+  uint32_t frames = 0;                        ///< that are there: fewer than asked for where a check ended the render
   uint32_t frames_resumed = 0;                ///< of an interrupted run that were there already
   double milliseconds_per_frame = 0;          ///< median wall time
 };
