@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
@@ -149,6 +152,24 @@ TEST_F(ReplayTest, PartsOfAGraphInAnyFrameWriteTheFilesOfTheRun) {
       EXPECT_GE(images, summary.values.size());
       fs::remove_all(wanted.out);
     }
+  }
+}
+
+TEST_F(ReplayTest, RandomPartsOfAGraph) {
+  RenderRequest run = render_request("lightloom.json", "run");
+  run.link.hoist = false;
+  run.dump_format = DumpFormat::npy;
+  render_run(run);
+  const std::vector<std::string> all = passes_of("run");
+  std::mt19937 random(5);
+  for (int part = 0; part < 8; ++part) {
+    std::vector<std::string> chosen;
+    std::sample(all.begin(), all.end(), std::back_inserter(chosen), 2 + part, random);
+    SCOPED_TRACE(::testing::PrintToString(chosen));
+    ReplayRequest wanted = replay_request("run", chosen);
+    wanted.device.validate = part == 7;
+    wanted.frame = 5U + random() % 4;
+    expect_bits(replay_run(wanted));
   }
 }
 
