@@ -74,10 +74,10 @@ FrameResult Executor::run_frame(uint32_t frame, const FrameWants& wants) {
   return fetch(finish_frame());
 }
 
-FrameResult Executor::repeat_frame() {
+FrameResult Executor::repeat_frame(const FrameWants& wants) {
   if (!started_) throw std::logic_error("no frame has run yet that could be repeated");
   --frame_count_;
-  start(recent_frames_.back(), {});
+  start(recent_frames_.back(), wants);
   return fetch(finish());
 }
 

@@ -77,7 +77,7 @@ class Executor {
   void start_at(const FrameStart& start);
   /// Runs the last frame again, with the same conditions and the same layers: the same bits. What a plan runs once does
   /// not run again.
-  [[nodiscard]] FrameResult repeat_frame();
+  [[nodiscard]] FrameResult repeat_frame(const FrameWants& wants = {});
 
   /// With ExecutorOptions::single_texels: which texel of each value, by its id, is read back from now on; the first
   /// texel before.

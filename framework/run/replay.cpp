@@ -160,11 +160,28 @@ Json replay_record(const Replay& replay, const ReplaySummary& summary, const Pla
       {"warnings", summary.warnings}};
 }
 
+/// The passes that are to run, cut out of the graph of `text`; empty if `diagnostics` has errors.
+std::optional<Cut> cut_out(const Replay& replay, const std::string& text, const PassRegistry& registry,
+                           Diagnostics& diagnostics) {
+  const ReplayRequest& request = replay.request;
+  LinkOptions link = replay.run.link;
+  link.swaps.insert(link.swaps.end(), request.swaps.begin(), request.swaps.end());
+  link.sets.insert(link.sets.end(), request.sets.begin(), request.sets.end());
+  const fs::path& file = request.graph.empty() ? replay.run.graph : request.graph;
+  const std::optional<Graph> whole = link_text(text, file, registry, link, &replay.scene, diagnostics);
+  if (!whole) return std::nullopt;
+  Cut part = cut(*whole, choose_passes(*whole, request.passes));
+  part.graph = for_one_frame(std::move(part.graph));
+  capture_outputs(part.graph);
+  return part;
+}
+
 /// Runs the passes, and again for their times.
 FrameResult run_passes(Executor& executor, const Replay& replay, std::vector<std::vector<PassTime>>& times) {
   FrameResult result = executor.run_frame(replay.frame);
   times.push_back(result.times);
-  while (times.size() < std::max(replay.request.repeat, 1u)) times.push_back(executor.repeat_frame().times);
+  while (times.size() < std::max(replay.request.repeat, 1u))
+    times.push_back(executor.repeat_frame({.outputs = false, .captures = false}).times);
   return result;
 }
 
@@ -186,19 +203,12 @@ bool replay(const ReplayRequest& request, const PassRegistry& registry, Diagnost
   const Replay replay = open_replay(request, run);
   summary.frame = replay.frame;
   const std::string text = request.graph.empty() ? run.graph_text : read_text_file(request.graph);
-  LinkOptions link = run.link;
-  link.swaps.insert(link.swaps.end(), request.swaps.begin(), request.swaps.end());
-  link.sets.insert(link.sets.end(), request.sets.begin(), request.sets.end());
-  const std::optional<Graph> whole =
-      link_text(text, request.graph.empty() ? run.graph : request.graph, registry, link, &replay.scene, diagnostics);
-  if (!whole) return false;
-  Cut part = cut(*whole, choose_passes(*whole, request.passes));
-  part.graph = for_one_frame(std::move(part.graph));
-  capture_outputs(part.graph);
-  const FrameStart start = start_from_dumps(run, part, replay.frame);
+  const std::optional<Cut> part = cut_out(replay, text, registry, diagnostics);
+  if (!part) return false;
+  const FrameStart start = start_from_dumps(run, *part, replay.frame);
 
   gpu::Device device(request.device);
-  Executor executor(device, compile(part.graph, request.compile), replay.scene,
+  Executor executor(device, compile(part->graph, request.compile), replay.scene,
                     {.shaders = request.shaders,
                      .camera = run.camera,
                      .camera_path = replay.path,
@@ -215,7 +225,7 @@ bool replay(const ReplayRequest& request, const PassRegistry& registry, Diagnost
       Json::parse(frame_record(result, run.seed, replay.scene.bounds).dump()) != run.dumps.conditions(replay.frame))
     summary.changes.emplace_back("the frame's conditions: camera or time are not those in its frame.json");
   summary.compared = request.compare || summary.changes.empty();
-  compare(replay, part.graph, result, summary);
+  compare(replay, part->graph, result, summary);
   for (const gpu::ValidationMessage& message : device.validation_messages())
     summary.warnings.push_back("validation: " + message.text);
   write_outputs(replay, executor, result, summary, times);
