@@ -6,6 +6,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
 #include "framework/base/hash.hpp"
+#include "framework/graph/plan_json.hpp"
 #include "framework/run/checkpoint.hpp"
 #include "framework/run/compile_graph.hpp"
 #include "framework/run/executor.hpp"
@@ -146,6 +147,12 @@ std::vector<std::string> validation_warnings(const gpu::Device& device) {
   return warnings;
 }
 
+Json plan_of(const Executor& executor, const gpu::Device& device) {
+  PlanFacts facts;
+  facts.memory = {memory_needs(device, executor.plan().graph), executor.memory_sharing()};
+  return plan_json(executor.plan(), facts);
+}
+
 /// The pictures a person would open: 8-bit images, else every output of the frames.
 std::vector<std::filesystem::path> pictures(const RunFolder& folder) {
   std::vector<std::filesystem::path> images;
@@ -194,6 +201,7 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
     checks.resume(checkpoint->state);
   }
   RunFolder folder = open_folder(request, checkpoint);
+  if (!checkpoint) folder.write_plan(plan_of(executor, device));
   RunProgress progress = checkpoint ? checkpoint->progress : RunProgress{};
   summary.frames_resumed = progress.frames();
   if (progress.frames() == 0 && !executor.plan().graph.captures.empty()) folder.write_moving_triangles(scene);

@@ -34,6 +34,8 @@ class RunFolder {
   /// a, b, c as indices into the scene's vertices, material, object. Each frame's positions of their vertices go to
   /// dumps/FFFF/moving_positions.npy, shape (n, 3, 1) [m]. Only of use with captures.
   void write_moving_triangles(const scene::Scene& scene);
+  /// What every frame executes, as plan_json has it: `plan.json`.
+  void write_plan(const nlohmann::ordered_json& plan) { write_json("plan.json", plan); }
   /// Writes the outputs, and, if the frame has captures, these with `conditions` as frame.json beside them.
   void write_frame(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions);
   /// Writes the index of the dumps and `record` as run.json, with the list of files added.

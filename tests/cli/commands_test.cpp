@@ -37,7 +37,8 @@ TEST_F(Commands, help_and_version_go_to_standard_output) {
   EXPECT_EQ(run({"--version"}), 0);
   EXPECT_THAT(out_, StartsWith("lightloom 0."));
   for (const std::string command :
-       {"render", "probe", "replay", "check", "plan", "passes", "scene", "brdf", "compare", "devices", "completion"}) {
+       {"render", "probe", "replay", "check", "plan", "passes", "schema", "scene", "brdf", "compare", "devices",
+        "completion"}) {
     EXPECT_EQ(run({command, "--help"}), 0);
     EXPECT_THAT(out_, HasSubstr("Usage: lightloom " + command));
     EXPECT_EQ(err_, "");
@@ -206,7 +207,7 @@ TEST_F(Commands, render_fills_the_run_folder_and_the_validation_layers_are_silen
   EXPECT_EQ(err_, "");
   EXPECT_THAT(out_, AllOf(StartsWith("2 frames in " + out), HasSubstr("image.0002.png")));
   for (const char* name :
-       {"radiance.0001.exr", "image.0001.png", "radiance.0002.exr", "image.0002.png", "run.json",
+       {"radiance.0001.exr", "image.0001.png", "radiance.0002.exr", "image.0002.png", "run.json", "plan.json",
         "dumps/0001/distance.distance.npy", "dumps/0002/gather.surface.normal.exr", "dumps/index.json"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / name)) << name;
   }

@@ -159,7 +159,7 @@ TEST(Docs, the_page_of_passes_is_what_the_program_prints) {
 
 TEST(Docs, the_schemas_are_what_the_program_prints) {
   const Sandbox sandbox;
-  for (const std::string format : {"graph", "scene", "study"}) {
+  for (const std::string format : {"graph", "scene", "study", "plan"}) {
     const auto [status, printed] = sandbox.run("lightloom schema " + format);
     ASSERT_EQ(status, 0) << printed;
     EXPECT_TRUE(printed == read_text_file(kSource / "docs" / (format + ".schema.json")))
