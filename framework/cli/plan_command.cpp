@@ -14,6 +14,7 @@
 #include "framework/graph/plan_dot.hpp"
 #include "framework/graph/plan_json.hpp"
 #include "framework/graph/verify.hpp"
+#include "framework/page/make_plan_page.hpp"
 #include "framework/run/compile_graph.hpp"
 #include "framework/run/run_times.hpp"
 #include "framework/run/value_images.hpp"
@@ -79,6 +80,7 @@ ExitCode print_verification(const Plan& plan, const PlanFacts::Memory& planned, 
 std::string written(const PlanOptions& options, const Plan& plan, const PlanFacts& facts) {
   if (options.format == "json") return plan_json(plan, facts).dump(2) + "\n";
   if (options.format == "dot") return plan_dot(plan);
+  if (options.format == "html") return page::make_plan_page(plan, facts);
   std::string text = print_plan(plan);
   if (facts.memory && options.memory) text += memory_text(plan, *facts.memory);
   if (facts.times) text += print_critical_path(plan, facts.times->step_ms);
@@ -117,7 +119,8 @@ void add_plan_command(Command& program, const CommandContext& context) {
   command.positional("GRAPH", options->graph, "Graph file (JSON)").required();
   command.option("--scene", options->scene, "Scene to plan for; a unit cube with every scene feature unless given");
   options->changes.add_to(command);
-  command.option("--format", options->format, "Text; data; a drawing for Graphviz").choices({"text", "json", "dot"});
+  command.option("--format", options->format, "Text; data; a drawing for Graphviz; a page to look at")
+      .choices({"text", "json", "dot", "html"});
   command.option("--out", options->out, "Write it to a file").placeholder("FILE").completes(Completion::files);
   command
       .option("--times", options->times,

@@ -10,6 +10,7 @@
 #include "framework/base/base64.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
+#include "framework/page/page.hpp"
 #include "framework/study/graph_layout.hpp"
 #include "framework/study/metric_info.hpp"
 
@@ -206,28 +207,6 @@ Json graph_json(const StudyResults& results) {
       {"width", std::ceil(layout.width)}, {"height", std::ceil(layout.height)}, {"passes", passes}, {"edges", edges}};
 }
 
-/// JSON has these characters in strings alone, where an escape means the same.
-std::string escape_for_script(const std::string& json) {
-  std::string text;
-  text.reserve(json.size());
-  for (size_t i = 0; i < json.size(); ++i) {
-    const std::string_view rest = std::string_view(json).substr(i, 3);
-    if (rest == "\xE2\x80\xA8" || rest == "\xE2\x80\xA9") {
-      text += rest == "\xE2\x80\xA8" ? "\\u2028" : "\\u2029";
-      i += 2;
-    } else if (json[i] == '<') {
-      text += "\\u003c";
-    } else if (json[i] == '>') {
-      text += "\\u003e";
-    } else if (json[i] == '&') {
-      text += "\\u0026";
-    } else {
-      text += json[i];
-    }
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string report_data(const StudyResults& results, const std::filesystem::path& folder) {
@@ -244,7 +223,7 @@ std::string report_data(const StudyResults& results, const std::filesystem::path
                {"drawing", graph_json(results)}};
   for (const auto& row : results.rows) data["rows"].push_back(row_json(row, pictures));
   data["pictures"] = pictures.all();
-  return escape_for_script(data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return page::escape_for_script(data.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace lightloom::study

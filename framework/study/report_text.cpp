@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "framework/base/text.hpp"
+#include "framework/page/page.hpp"
 #include "framework/study/metric_info.hpp"
 
 namespace lightloom::study {
@@ -24,7 +25,7 @@ std::string plural(size_t count, const std::string& noun) {
 }
 
 std::string strong(const std::string& name) {
-  return "<strong>" + escape_html(name) + "</strong>";
+  return "<strong>" + page::escape_html(name) + "</strong>";
 }
 
 /// "a, b and c", at most kNamesInWords of them named.
@@ -54,8 +55,8 @@ std::vector<ViewName> views_of(const StudyResults& results) {
 }
 
 std::string view_name(const ViewName& view) {
-  std::string text = escape_html(view.first);
-  if (!view.second.empty()) text += ", " + escape_html(view.second);
+  std::string text = page::escape_html(view.first);
+  if (!view.second.empty()) text += ", " + page::escape_html(view.second);
   return text;
 }
 
@@ -79,7 +80,7 @@ const Row* best_by(const std::vector<const Row*>& rows, const MetricInfo& metric
 }
 
 std::string best_words(const Row& best, const MetricInfo& metric) {
-  std::string words = strong(best.setting) + " is best by " + escape_html(metric.label) + ", " +
+  std::string words = strong(best.setting) + " is best by " + page::escape_html(metric.label) + ", " +
                       with_interval(best.metrics.at(metric.name)) + (metric.unit.empty() ? "" : " " + metric.unit);
   const auto verdict = best.verdicts.find(metric.name);
   if (verdict == best.verdicts.end()) return words + " (it is the baseline)";
@@ -144,32 +145,6 @@ std::string count_words(const StudyResults& results, size_t views) {
 }
 
 }  // namespace
-
-std::string escape_html(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 std::string format_number(double value) {
   if (std::isnan(value)) return "not a number";

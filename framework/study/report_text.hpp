@@ -7,9 +7,6 @@
 
 namespace lightloom::study {
 
-/// Text as HTML shows it, fit for content and quoted attributes.
-[[nodiscard]] std::string escape_html(std::string_view text);
-
 /// Three significant digits, whatever the locale: 0.0712, 12.3, 1234, 1.2e-05; ∞, −∞ and "not a number" in words.
 [[nodiscard]] std::string format_number(double value);
 

@@ -22,6 +22,7 @@ class RunTimesTest : public ::testing::Test {
     for (const char* name : {"b", "a"}) {
       plan_.graph.passes.push_back({});
       plan_.graph.passes.back().name = name;
+      plan_.graph.passes.back().type = &type_;
     }
   }
   ~RunTimesTest() override { fs::remove_all(folder_); }
@@ -42,6 +43,7 @@ class RunTimesTest : public ::testing::Test {
   }
 
   fs::path folder_;
+  PassType type_;
   Plan plan_;
 };
 

@@ -12,6 +12,7 @@
 
 #include "framework/base/base64.hpp"
 #include "framework/base/error.hpp"
+#include "framework/page/page.hpp"
 #include "framework/study/graph_layers.hpp"
 #include "framework/study/graph_layout.hpp"
 #include "framework/study/metric_info.hpp"
@@ -122,7 +123,7 @@ TEST(ReportText, NumbersHaveThreeDigits) {
   EXPECT_EQ(format_number(0), "0");
   EXPECT_EQ(format_number(std::numeric_limits<double>::infinity()), "∞");
   EXPECT_EQ(format_number(std::nan("")), "not a number");
-  EXPECT_EQ(escape_html("<a href=\"x\">'&'"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;");
+  EXPECT_EQ(page::escape_html("<a href=\"x\">'&'"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;");
 }
 
 TEST(MetricInfo, KnowsWhatIsBetter) {
