@@ -36,9 +36,8 @@ class Commands : public ProgramTest {
 TEST_F(Commands, help_and_version_go_to_standard_output) {
   EXPECT_EQ(run({"--version"}), 0);
   EXPECT_THAT(out_, StartsWith("lightloom 0."));
-  for (const std::string command :
-       {"render", "probe", "replay", "check", "plan", "passes", "schema", "scene", "brdf", "compare", "devices",
-        "completion"}) {
+  for (const std::string command : {"render", "probe", "replay", "check", "plan", "passes", "schema", "scene", "brdf",
+                                    "compare", "devices", "completion"}) {
     EXPECT_EQ(run({command, "--help"}), 0);
     EXPECT_THAT(out_, HasSubstr("Usage: lightloom " + command));
     EXPECT_EQ(err_, "");

@@ -1,7 +1,9 @@
 // Columns are steps, rows what passes write.
 
 const ROW = 18;
-const LABEL = 210;
+const LETTER = 7.05; // width of one in the font of names
+const MOST_LETTERS = 36;
+const LABEL = 18 + LETTER * Math.min(MOST_LETTERS, Math.max(18, ...rows.map((row) => row.name.length)));
 const EDGE = 26;
 
 class Columns {
@@ -49,7 +51,7 @@ class OrderChart {
     const mark = (kind) => svg("svg", { width: 14, height: 12, "aria-hidden": "true" }, this.mark(kind, 7, 6));
     return el("ul", { class: "legend" },
       ["frame", "history", "persistent", "once", "constant"].filter((kind) => rows.some((row) => row.kept === kind)).map((kind) => el("li", null, swatch(kind), kind)),
-      plan.times === null ? [] : el("li", null, svg("svg", { width: 14, height: 12, "aria-hidden": "true" }, svg("rect", { width: 14, height: 12, class: "stripe critical" })), "step on the critical path"),
+      plan.times === null ? [] : el("li", null, svg("svg", { width: 14, height: 12, "aria-hidden": "true" }, svg("rect", { width: 14, height: 12, class: "critical-swatch" })), "step on the critical path"),
       [["write", "write"], ["read", "read"], ["history", "read of earlier frames"], ["observe", "read back or scanned"]].map(([kind, text]) => el("li", null, mark(kind), text)));
   }
 
@@ -62,7 +64,7 @@ class OrderChart {
 
   draw(width) {
     const columns = new Columns(width);
-    const top = 148;
+    const top = 52 + 0.82 * LETTER * Math.max(6, ...plan.steps.map((step) => step.pass.length));
     const height = top + rows.length * ROW + 12;
     this.marks = [];
     const root = svg("svg", { width: columns.width, height, viewBox: `0 0 ${columns.width} ${height}`, role: "group", "aria-label": "Lifetimes of values over the steps of a frame" });
@@ -88,9 +90,10 @@ class OrderChart {
   head(x, top, name, number, step) {
     const waits = barriers.filter((barrier) => barrier.step === step);
     const text = svg("text", { x: 0, y: 0, transform: `translate(${x + 3} ${top - 40}) rotate(-55)`, class: "step-name" }, name);
-    const group = svg("g", { class: "step-head", "data-step": step, "data-find": name }, text, svg("text", { x, y: top - 12, class: "step-number" }, String(number)));
+    const below = svg("text", { x, y: top - 12, class: "step-number" }, String(number));
+    const group = svg("g", { class: "step-head", "data-step": step, "data-find": name }, text, below);
     if (step >= 0) {
-      add_tooltip(text, () => step_text(step));
+      for (const target of [text, below]) add_tooltip(target, () => step_text(step));
       group.addEventListener("pointerenter", () => this.highlight(step));
       group.addEventListener("pointerleave", () => this.highlight(null));
     } else if (plan.once.length > 0) {
@@ -109,7 +112,7 @@ class OrderChart {
     const group = svg("g", { class: `order-row${row.scratch ? " scratch" : ""}`, tabindex: "-1", "data-find": row.name, role: "img", "aria-label": row_text(row) });
     const bar = (from, to, extra) => svg("rect", { x: from, y: y + 3, width: Math.max(2, to - from), height: ROW - 6, rx: 4, class: `life ${row.kept}${extra}` });
     group.append(svg("rect", { x: 0, y, width: columns.width, height: ROW, class: "row-hit" }));
-    const label = row.name.length > 30 ? `${row.name.slice(0, 29)}…` : row.name;
+    const label = row.name.length > MOST_LETTERS ? `${row.name.slice(0, MOST_LETTERS - 1)}…` : row.name;
     group.append(svg("text", { x: LABEL - 8, y: middle + 4, class: "row-name" }, label));
     const begin = row.kept === "once" || row.kept === "constant" ? columns.x(-1) : columns.x(0);
     if (row.kept !== "frame") group.append(bar(begin + 2, columns.x(step_count) + EDGE - 4, " beyond"));
