@@ -22,6 +22,7 @@ struct RenderOptions {
   bool resume = false;
   std::string device;
   bool no_alias = false;
+  bool no_times = false;
   bool validate = false;
   run::CheckOptions checks;
 };
@@ -45,6 +46,7 @@ run::RenderRequest make_request(const RenderOptions& options, const CommandConte
     throw Error(ExitCode::usage, "option '--dump-frames' needs '--dump', which says what to write");
   request.share_memory = !options.no_alias;
   request.checks = options.checks;
+  request.time_passes = !options.no_times;
   request.checkpoint_every = options.checkpoint_every;
   request.resume = options.resume;
   request.out = options.out.empty() ? std::filesystem::path("out") / options.picture.graph.stem() : options.out;
@@ -156,6 +158,9 @@ void add_render_command(Command& program, const CommandContext& context, const s
             "read what nobody wrote, or leave texels unwritten: then with exit code 1. Renders everything twice; the "
             "pictures are the same")
       .group("Checks");
+  command.flag("--no-times", options->no_times,
+               "Do not time each pass on its own, which keeps passes apart that may overlap; run.json then has the "
+               "times of whole frames alone; the pictures are the same");
   command.flag("--validate", options->validate, "Check each Vulkan call by the validation layers (slow)");
   command.action([options, &context, arguments] { return render(*options, context, arguments); });
 }

@@ -51,7 +51,7 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
       placeholders_(device),
       shaders_(device, {.include_directories = options.shaders.sources, .cache_directory = options.shaders.cache}),
       descriptors_(device),
-      timestamps_(device, query_count(std::max<size_t>(plan_.steps.size() + plan_.once.size(), 1))) {
+      timestamps_(device, options.time_passes ? query_count(plan_.steps.size() + plan_.once.size()) : 0) {
   if (options.poison) poison_.emplace(device_, plan_, *options.poison);
   if (has_scans(plan_)) scan_.emplace(device_, plan_, shaders_, options.poison);
   device_.run_commands([&](VkCommandBuffer commands) {
@@ -203,8 +203,7 @@ void Executor::record_steps(gpu::CommandSession& session, const std::vector<Plan
   uint32_t query = first_query;
   for (const PlanStep& step : steps) {
     const GraphPass& pass = plan_.graph.passes[step.pass];
-    record_barriers(session.get(), step.barriers);
-    images_.record_takeovers(session.get(), step.barriers);
+    record_barriers(session.get(), step.barriers, images_.takeovers(step.barriers));
     if (poison_) poison_->record_before(session.get(), pass, images_, frame_count_);
     record_timestamp(session.get(), query++);
     if (pass.type->host)
@@ -227,6 +226,7 @@ void Executor::record_pass(VkCommandBuffer commands, const GraphPass& pass) {
                          .descriptors = &descriptors_},
                         plan_.graph, pass);
   pass.type->record(recorder);
+  recorder.finish();
 }
 
 void Executor::run_host_pass(gpu::CommandSession& session, const GraphPass& pass) {
@@ -238,6 +238,7 @@ void Executor::run_host_pass(gpu::CommandSession& session, const GraphPass& pass
 }
 
 void Executor::record_timestamp(VkCommandBuffer commands, uint32_t query) const {
+  if (!timestamps_.available()) return;
   // Passes are timed one by one: nothing may overlap the stamp. The barrier after it also makes lavapipe, which puts
   // stamps off until something flushes, take it here.
   gpu::record_full_barrier(commands);

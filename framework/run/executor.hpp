@@ -34,6 +34,10 @@ struct ExecutorOptions {
   std::optional<double> frozen_time = std::nullopt;  ///< every frame shows the scene at this time [s]
   bool share_memory = true;                          ///< values that are not live at the same time share memory
   std::optional<PoisonTone> poison = std::nullopt;   ///< fills what nobody wrote; the bits stay the same
+  /// Each pass is timed on its own, by timestamps between full barriers. Without, only the plan's barriers stand
+  /// between passes, which may overlap as far as these allow, and there are no times of device passes. The bits are the
+  /// same.
+  bool time_passes = true;
   /// What host passes derive from the scene, to be shared by executors on the same one; empty: the executor's own.
   std::shared_ptr<SceneMemo> memo = nullptr;
   bool single_texels = false;  ///< of what is read back one texel each comes to the host: Executor::look_at

@@ -18,7 +18,8 @@ struct NamedImage {
 
 struct PassTime {
   std::string pass;
-  double milliseconds = 0;  ///< between the device's timestamps around the pass; negative where it has none.
+  double milliseconds = 0;  ///< between the device's timestamps around the pass; negative where it has none,
+                            ///< or was not asked for them (ExecutorOptions::time_passes).
                             ///< Of a host pass: what it computed, by the host's clock, without the copies
 };
 

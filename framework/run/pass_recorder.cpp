@@ -5,7 +5,6 @@
 
 #include "framework/base/error.hpp"
 #include "framework/gpu/rendering.hpp"
-#include "framework/gpu/transfer.hpp"
 #include "framework/graph/voxel_box.hpp"
 #include "framework/run/moved_boxes.hpp"
 #include "framework/run/pass_bindings.hpp"
@@ -32,8 +31,8 @@ PassRecorder::PassRecorder(const RecordingEnvironment& environment, const Graph&
       graph_(graph),
       pass_(pass),
       resources_(port_resources(pass, *environment.images, environment.frame_count)),
-      known_values_(
-          known_shader_values(pass, *environment.images, environment.frame_count, environment.scene->values)) {}
+      known_values_(known_shader_values(pass, *environment.images, environment.frame_count, environment.scene->values)),
+      hazards_(pass) {}
 
 Extent3 PassRecorder::input_extent(std::string_view port) const {
   for (const Use& use : pass_.inputs)
@@ -75,26 +74,21 @@ std::vector<VoxelBox> PassRecorder::moved_boxes(const Extent3& grid) const {
   return run::moved_boxes(environment_.scene->bounds, grid, environment_.scene->moved);
 }
 
-void PassRecorder::separate_commands() {
-  if (recorded_) gpu::record_full_barrier(environment_.commands);
-  recorded_ = true;
+void PassRecorder::finish() {
+  record_dependencies(environment_.commands, hazards_.finish());
 }
 
 void PassRecorder::clear(std::string_view port, const ClearColor& color) {
-  // The plan's barriers reach the stages of the port's declared access; the full barriers chain them to the transfer.
-  gpu::record_full_barrier(environment_.commands);
-  bool any = false;
+  const std::vector<Touch> touches = port_touches(pass_, port, Access::transfer_write);
+  if (touches.empty()) fail(pass_, "clears '" + std::string(port) + "', which is neither an output nor a scratch port");
+  record_dependencies(environment_.commands, hazards_.before(touches));
   for (const std::vector<Use>* uses : {&pass_.outputs, &pass_.scratch}) {
     for (const Use& use : *uses) {
       if (use.port != port) continue;
       const ValueLayer layer = environment_.images->layer(use.value, 0, environment_.frame_count);
       record_clear(environment_.commands, *layer.image, layer.layer, color);
-      any = true;
     }
   }
-  if (!any) fail(pass_, "clears '" + std::string(port) + "', which is neither an output nor a scratch port");
-  gpu::record_full_barrier(environment_.commands);
-  recorded_ = false;
 }
 
 std::vector<ShaderValue> PassRecorder::values_for(const gpu::Reflection& reflection,
@@ -135,7 +129,7 @@ void PassRecorder::dispatch(const Dispatch& dispatch) {
   const std::vector<ShaderValue> values = values_for(program.reflection, dispatch.values);
   const std::vector<ShaderValue> constants = specialization_values(program.reflection, values);
   const gpu::Pipeline& pipeline = environment_.shaders->pipelines().compute(program, constants);
-  separate_commands();
+  record_dependencies(environment_.commands, hazards_.before(bound_touches(pass_, program.reflection)));
   pipeline.bind(environment_.commands, bind_resources(pipeline),
                 gpu::encode_push_constants(pipeline.reflection(), values));
   const auto& local = program.reflection.local_size;
@@ -156,10 +150,13 @@ gpu::ImageView PassRecorder::written_view(const Use& use) const {
 
 void PassRecorder::draw(const Draw& draw) {
   const gpu::ShaderProgram& program = environment_.shaders->program({draw.vertex_shader, draw.fragment_shader});
+  std::vector<Touch> touches = bound_touches(pass_, program.reflection);
   std::vector<gpu::ColorTarget> colors;
   gpu::AttachmentFormats formats;
   for (const gpu::FragmentOutput& output : program.reflection.outputs) {
-    const gpu::ImageView view = written_view(written_use(output.name));
+    const Use& use = written_use(output.name);
+    touches.push_back(written_touch(pass_, use, Access::color_attachment_write));
+    const gpu::ImageView view = written_view(use);
     colors.push_back({view, {}});
     formats.colors.push_back(view.format);
   }
@@ -167,6 +164,7 @@ void PassRecorder::draw(const Draw& draw) {
   std::optional<gpu::DepthTarget> depth;
   if (!draw.depth_port.empty()) {
     const Use& use = written_use(draw.depth_port);
+    touches.push_back(written_touch(pass_, use, Access::depth_attachment_write));
     depth = gpu::DepthTarget{written_view(use), 1.0f};
     formats.depth = depth->view.format;
     extent = graph_.values[use.value].desc.extent;
@@ -174,7 +172,7 @@ void PassRecorder::draw(const Draw& draw) {
   const std::vector<ShaderValue> values = values_for(program.reflection, draw.values);
   const gpu::Pipeline& pipeline =
       environment_.shaders->pipelines().graphics(program, specialization_values(program.reflection, values), formats);
-  separate_commands();
+  record_dependencies(environment_.commands, hazards_.before(touches));
   gpu::begin_rendering(environment_.commands, {extent.width, extent.height}, colors, depth);
   pipeline.bind(environment_.commands, bind_resources(pipeline),
                 gpu::encode_push_constants(pipeline.reflection(), values));

@@ -7,6 +7,7 @@
 #include "framework/gpu/pipeline.hpp"
 #include "framework/graph/graph.hpp"
 #include "framework/graph/pass_context.hpp"
+#include "framework/run/command_hazards.hpp"
 #include "framework/run/placeholders.hpp"
 #include "framework/run/scene_bindings.hpp"
 #include "framework/run/shader_library.hpp"
@@ -26,7 +27,7 @@ struct RecordingEnvironment {
 };
 
 /// The context that a pass records through: finds shaders, binds ports and scene by name, fills constants by name, and
-/// separates one command from the next.
+/// puts barriers between commands where they need them.
 class PassRecorder final : public PassContext {
  public:
   PassRecorder(const RecordingEnvironment& environment, const Graph& graph, const GraphPass& pass);
@@ -43,9 +44,10 @@ class PassRecorder final : public PassContext {
   void clear(std::string_view port, const ClearColor& color) override;
   void dispatch(const Dispatch& dispatch) override;
   void draw(const Draw& draw) override;
+  /// After the pass has recorded its last command.
+  void finish();
 
  private:
-  void separate_commands();
   [[nodiscard]] const Use& written_use(std::string_view shader_name) const;
   [[nodiscard]] gpu::ImageView written_view(const Use& use) const;
   [[nodiscard]] std::vector<ShaderValue> values_for(const gpu::Reflection& reflection,
@@ -57,7 +59,7 @@ class PassRecorder final : public PassContext {
   const GraphPass& pass_;
   gpu::ResourceMap resources_;
   std::vector<ShaderValue> known_values_;
-  bool recorded_ = false;
+  CommandHazards hazards_;
 };
 
 }  // namespace lightloom::run

@@ -61,6 +61,7 @@ Json run_record(const Run& run, const Executor& executor, const RunChecks& check
   record["frames_per_second"] = request.frames_per_second;
   record["frozen_time"] = request.frozen_time ? Json(*request.frozen_time) : Json();
   record["sync"] = to_string(request.compile.sync);
+  record["pass_times"] = request.time_passes;
   record["dump_format"] = to_string(request.dump_format);
   record["output_frames"] = to_string(request.output_frames);
   record["dump_frames"] = to_string(request.dump_frames);
@@ -192,6 +193,7 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
                                                .frames_per_second = request.frames_per_second,
                                                .frozen_time = request.frozen_time,
                                                .share_memory = request.share_memory,
+                                               .time_passes = request.time_passes,
                                                .memo = std::make_shared<SceneMemo>()},
                                               request.checks);
   RunChecks checks(request.checks, device, plan, scene, options);

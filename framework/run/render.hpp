@@ -34,6 +34,7 @@ struct RenderRequest {
   std::optional<double> frozen_time;  ///< every frame shows the scene at this time [s]
   std::filesystem::path out;          ///< run folder, made if missing
   bool share_memory = true;           ///< values that are not live at the same time share memory
+  bool time_passes = true;            ///< ExecutorOptions::time_passes
   DumpFormat dump_format = DumpFormat::exr;
   FrameSet output_frames;  ///< whose outputs are written
   FrameSet dump_frames;    ///< whose captures are written

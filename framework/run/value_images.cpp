@@ -173,7 +173,7 @@ void ValueImages::record_initialisation(VkCommandBuffer commands) const {
   }
 }
 
-void ValueImages::record_takeovers(VkCommandBuffer commands, std::span<const Barrier> barriers) const {
+std::vector<VkImageMemoryBarrier2> ValueImages::takeovers(std::span<const Barrier> barriers) const {
   std::map<ValueId, VkImageMemoryBarrier2> images;
   for (const Barrier& barrier : barriers) {
     if (!barrier.takes_over) continue;
@@ -191,14 +191,9 @@ void ValueImages::record_takeovers(VkCommandBuffer commands, std::span<const Bar
     merged.image = image.get();
     merged.subresourceRange = {image.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
   }
-  if (images.empty()) return;
   std::vector<VkImageMemoryBarrier2> list;
   for (const auto& [value, barrier] : images) list.push_back(barrier);
-  VkDependencyInfo dependency{};
-  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  dependency.imageMemoryBarrierCount = static_cast<uint32_t>(list.size());
-  dependency.pImageMemoryBarriers = list.data();
-  vkCmdPipelineBarrier2(commands, &dependency);
+  return list;
 }
 
 void ValueImages::record_clear(VkCommandBuffer commands, const Clear& clear) const {

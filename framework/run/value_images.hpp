@@ -36,8 +36,8 @@ class ValueImages {
   /// Brings every image that has its memory to itself into GENERAL and fills it with zeros, so that nothing can depend
   /// on what the memory held.
   void record_initialisation(VkCommandBuffer commands) const;
-  /// Those of `barriers` that take memory over: brings their images into GENERAL behind the uses they wait for.
-  void record_takeovers(VkCommandBuffer commands, std::span<const Barrier> barriers) const;
+  /// Those of `barriers` that take memory over: they bring their images into GENERAL behind the uses they wait for.
+  [[nodiscard]] std::vector<VkImageMemoryBarrier2> takeovers(std::span<const Barrier> barriers) const;
   /// Fills every layer of a value.
   void record_clear(VkCommandBuffer commands, const Clear& clear) const;
 
