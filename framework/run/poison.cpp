@@ -40,17 +40,18 @@ std::vector<const Use*> written_uses(const GraphPass& pass) {
 
 uint32_t poison_bits(Format format, PoisonTone tone, uint64_t frame_count) {
   const bool nan = tone == PoisonTone::nan;
-  const bool negative = frame_count % 2 == 0;
+  // Two numbers that no clamp makes alike: of either sign, or, where there is none, a small and a large one.
+  const bool low = frame_count % 2 == 0;
   if (format_info(format).depth) return nan ? 0x3eaf1c3du : 0x3f35b60bu;  // 0.342, 0.710
   switch (image::channel_type(format)) {
     case image::ChannelType::unorm8:
-      return nan ? 0xa5u : 0x3cu;
+      return nan ? 0xa5u : (low ? 0x01u : 0x3cu);
     case image::ChannelType::half:
-      return nan ? 0x7ed5u : (negative ? 0xef1au : 0x6f1au);  // 7272
+      return nan ? 0x7ed5u : (low ? 0xef1au : 0x6f1au);  // 7272
     case image::ChannelType::float32:
-      return nan ? 0x7fd5b0a1u : (negative ? 0xcb5aa5f1u : 0x4b5aa5f1u);  // 14329329
+      return nan ? 0x7fd5b0a1u : (low ? 0xcb5aa5f1u : 0x4b5aa5f1u);  // 14329329
     case image::ChannelType::uint32:
-      return nan ? 0xa5c3u : 0x0b17u;
+      return nan ? 0xa5c3u : (low ? 0x0001u : 0x0b17u);
   }
   return 0;
 }

@@ -12,8 +12,10 @@ namespace lightloom::run {
 
 /// What stands where nobody wrote. Two runs that differ in this alone have the same bits unless a pass reads it.
 enum class PoisonTone : uint8_t {
-  nan,     ///< floats: a NaN with a payload that no computation makes; others: one rare number
-  number,  ///< floats: a finite number, negative in every other frame; others: another rare number
+  nan,  ///< floats: a NaN with a payload that no computation makes; others: one large number
+  /// Floats: a finite number, negative in frames of even count, positive in the others; others: a small and a large
+  /// one.
+  number,
 };
 
 /// Raw bits of each channel of a poisoned texel. Integers are small enough to be no harm as an index or as a count, and
