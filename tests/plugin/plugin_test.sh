@@ -39,7 +39,8 @@ grep -q '"type": "sky_light_trace"' "$work/own/run.json" || fail "run.json does 
 
 # Named by the environment, and known to the other commands.
 LIGHTLOOM_PLUGINS=$work/built/sky_light.so "$lightloom" passes | grep -q sky_light_trace || fail "passes does not list it"
-LIGHTLOOM_PLUGINS=$work/built/sky_light.so "$lightloom" schema graph | grep -q type_sky_light_trace || fail "the schema lacks it"
+LIGHTLOOM_PLUGINS=$work/built/sky_light.so "$lightloom" schema graph --out "$work/schema"
+grep -q type_sky_light_trace "$work/schema" || fail "the schema lacks it"
 ! "$lightloom" passes | grep -q sky_light_trace || fail "it is there without being loaded"
 
 # Built against other headers.
