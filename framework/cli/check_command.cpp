@@ -3,12 +3,13 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "framework/base/file.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/messages.hpp"
 #include "framework/cli/scene_option.hpp"
 #include "framework/graph/graph_spec.hpp"
 #include "framework/run/compile_graph.hpp"
+#include "framework/run/compute_types.hpp"
+#include "framework/run/plugins.hpp"
 
 namespace lightloom::cli {
 namespace {
@@ -37,16 +38,16 @@ void merge(const Diagnostics& from, Diagnostics& into) {
 }
 
 /// The graph as it stands, and with each of its variants.
-Diagnostics check_graph(const std::filesystem::path& file, const scene::Scene* scene, const PassRegistry& registry) {
+Diagnostics check_graph(const std::filesystem::path& file, const scene::Scene* scene, const CommandContext& context) {
+  const PassRegistry& registry = context.registry;
   Diagnostics diagnostics;
-  std::string text;
+  std::optional<GraphSpec> spec;
   try {
-    text = read_text_file(file);
+    spec = run::read_graph(file, registry, run::shader_folders_with(context.plugins), diagnostics);
   } catch (const Error& error) {
     diagnostics.error("unreadable-file", {file.string(), 0, 0}, error.what(), error.hint());
     return diagnostics;
   }
-  const std::optional<GraphSpec> spec = parse_graph(text, file.string(), diagnostics);
   if (!spec) return diagnostics;
   const LinkEnvironment environment = run::link_environment(scene);
   (void)link(*spec, registry, {}, environment, diagnostics);
@@ -79,7 +80,7 @@ ExitCode check(const CheckOptions& options, const CommandContext& context) {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   ExitCode code = ExitCode::done;
   for (const std::filesystem::path& file : options.graphs) {
-    const Diagnostics diagnostics = check_graph(file, scene ? &*scene : nullptr, context.registry);
+    const Diagnostics diagnostics = check_graph(file, scene ? &*scene : nullptr, context);
     if (diagnostics.has_errors()) code = ExitCode::invalid_input;
     files.push_back({{"file", file.string()}, {"ok", !diagnostics.has_errors()}, {"problems", to_json(diagnostics)}});
     if (options.json) continue;

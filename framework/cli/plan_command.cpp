@@ -16,6 +16,7 @@
 #include "framework/graph/verify.hpp"
 #include "framework/page/make_plan_page.hpp"
 #include "framework/run/compile_graph.hpp"
+#include "framework/run/plugins.hpp"
 #include "framework/run/run_times.hpp"
 #include "framework/run/value_images.hpp"
 
@@ -92,7 +93,7 @@ ExitCode print(const PlanOptions& options, const CommandContext& context) {
   Diagnostics diagnostics;
   std::optional<Plan> plan =
       run::compile_graph(options.graph, context.registry, options.changes.link_options(), scene ? &*scene : nullptr,
-                         diagnostics, options.changes.compile_options());
+                         diagnostics, options.changes.compile_options(), run::shader_folders_with(context.plugins));
   print_diagnostics(context.err, diagnostics);
   if (!plan) return exit_code_of(diagnostics);
   PlanFacts facts;

@@ -6,6 +6,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/gpu/descriptor_type.hpp"
+#include "framework/gpu/image_use.hpp"
 #include "framework/gpu/reflection_types.hpp"
 
 namespace lightloom::gpu {
@@ -43,6 +44,34 @@ ImageShape image_shape(spvc_type type) {
   }
 }
 
+struct FormatRow {
+  SpvImageFormat shader;
+  Format format;
+};
+constexpr std::array<FormatRow, 11> kFormats{{
+    {SpvImageFormatR8, Format::r8_unorm},
+    {SpvImageFormatRgba8, Format::rgba8_unorm},
+    {SpvImageFormatR16f, Format::r16_sfloat},
+    {SpvImageFormatRg16f, Format::rg16_sfloat},
+    {SpvImageFormatRgba16f, Format::rgba16_sfloat},
+    {SpvImageFormatR32f, Format::r32_sfloat},
+    {SpvImageFormatRg32f, Format::rg32_sfloat},
+    {SpvImageFormatRgba32f, Format::rgba32_sfloat},
+    {SpvImageFormatR32ui, Format::r32_uint},
+    {SpvImageFormatRg32ui, Format::rg32_uint},
+    {SpvImageFormatRgba32ui, Format::rgba32_uint},
+}};
+
+/// Throws Error(invalid_input) for one that no value can have.
+std::optional<Format> image_format(SpvImageFormat format, const std::string& image) {
+  if (format == SpvImageFormatUnknown) return std::nullopt;
+  const auto* const found =
+      std::find_if(kFormats.begin(), kFormats.end(), [format](const FormatRow& row) { return row.shader == format; });
+  if (found != kFormats.end()) return found->format;
+  throw Error(ExitCode::invalid_input, "the image " + in_quotes(image) + " has a format that no value can have",
+              "r8, rgba8, r16f, rg16f, rgba16f, r32f, rg32f, rgba32f, r32ui, rg32ui or rgba32ui");
+}
+
 /// What only images have.
 void read_image(const SpirvReader& reader, const spvc_reflected_resource& resource, Binding& binding) {
   const spvc_type type = spvc_compiler_get_type_handle(reader.get(), resource.type_id);
@@ -51,6 +80,7 @@ void read_image(const SpirvReader& reader, const spvc_reflected_resource& resour
   binding.numeric =
       spvc_type_get_basetype(sampled) == SPVC_BASETYPE_UINT32 ? NumericClass::unsigned_integer : NumericClass::floating;
   if (binding.kind != BindingKind::storage_image) return;
+  binding.format = image_format(spvc_type_get_image_storage_format(type), binding.name);
   binding.readable = spvc_compiler_has_decoration(reader.get(), resource.id, SpvDecorationNonReadable) == SPVC_FALSE;
   binding.writable = spvc_compiler_has_decoration(reader.get(), resource.id, SpvDecorationNonWritable) == SPVC_FALSE;
 }
@@ -123,6 +153,9 @@ void merge_binding(Reflection& reflection, Binding binding, VkShaderStageFlags s
     other.stages |= stage;
     other.readable = other.readable || binding.readable;
     other.writable = other.writable || binding.writable;
+    other.reads = other.reads || binding.reads;
+    other.writes = other.writes || binding.writes;
+    if (!other.format) other.format = binding.format;
     for (size_t i = 0; i < other.members.size(); ++i)
       other.members[i].used = other.members[i].used || binding.members.at(i).used;
     return;
@@ -171,6 +204,7 @@ void merge_constants(Reflection& reflection, const SpirvReader& reader, VkShader
                                     .type = scalar_type(spvc_type_get_basetype(type)),
                                     .stages = stage};
     const SpecializationConstant* known = reflection.find_constant(constant.name);
+    constant.default_bits = spvc_constant_get_scalar_u32(handle, 0, 0);
     if (known != nullptr && known->type != constant.type) {
       fail(reflection, "its stages declare the constant " + in_quotes(constant.name) + " with different types");
     }
@@ -205,9 +239,15 @@ void add_module(Reflection& reflection, const SpirvModule& module) {
       fail(reflection, in_quotes(resources[0].name) + " is of a kind that the framework does not bind");
     }
   }
+  const std::map<uint32_t, ImageUse> uses = image_uses(module.words);
   for (const ResourceRow& row : kBound) {
     for (const auto& resource : reader.resources(row.type)) {
-      merge_binding(reflection, read_binding(reader, resource, row.kind), stage);
+      Binding binding = read_binding(reader, resource, row.kind);
+      if (const auto use = uses.find(resource.id); use != uses.end()) {
+        binding.reads = use->second.read;
+        binding.writes = use->second.written;
+      }
+      merge_binding(reflection, std::move(binding), stage);
     }
   }
   merge_push_constants(reflection, reader, stage);

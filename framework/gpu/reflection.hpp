@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -59,6 +60,10 @@ struct Binding {
   // storage images and storage buffers
   bool readable = true;   ///< not declared `writeonly`
   bool writable = false;  ///< not declared `readonly`
+  // images: what the code does, in whatever branch
+  bool reads = false;
+  bool writes = false;
+  std::optional<Format> format;  ///< storage images: that the shader names, as in `layout(rgba16f)`
   // buffers
   uint32_t block_size = 0;  ///< without a runtime array [bytes]
   std::vector<BlockMember> members;
@@ -69,6 +74,7 @@ struct SpecializationConstant {
   uint32_t id = 0;
   ScalarType type = ScalarType::other;
   VkShaderStageFlags stages = 0;  ///< those that know the name by this id
+  uint32_t default_bits = 0;      ///< the value that the shader gives it; a bool is 0 or 1
 };
 
 struct FragmentOutput {

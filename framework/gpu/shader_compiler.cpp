@@ -5,6 +5,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
 #include "framework/base/text.hpp"
+#include "framework/gpu/declaration.hpp"
 #include "framework/gpu/glslang_compile.hpp"
 #include "framework/gpu/includes.hpp"
 #include "framework/gpu/spirv_cache.hpp"
@@ -21,10 +22,26 @@ Stage stage_of(const std::string& file) {
               "name it *.comp, *.vert or *.frag");
 }
 
+/// A file that is named by its whole path is shown as seen from the working folder.
+std::string shown_name(const std::filesystem::path& file) {
+  if (!file.is_absolute()) return file.string();
+  std::error_code failed;
+  const std::filesystem::path seen = std::filesystem::relative(file, failed);
+  return failed || seen.empty() || *seen.begin() == ".." ? file.string() : seen.string();
+}
+
+/// What shaders named by their whole paths include may lie beside them.
+std::vector<std::filesystem::path> folders_for(std::span<const std::string> files,
+                                               std::vector<std::filesystem::path> folders) {
+  for (const std::filesystem::path file : files)
+    if (file.is_absolute()) folders.insert(folders.begin(), file.parent_path());
+  return folders;
+}
+
 ShaderSource load_shader(const std::string& file, std::span<const std::filesystem::path> directories) {
   const Stage stage = stage_of(file);
   const std::filesystem::path path = find_file(file, directories);
-  if (!path.empty()) return {.name = file, .text = read_text_file(path), .stage = stage};
+  if (!path.empty()) return {.name = shown_name(file), .text = read_text_file(path), .stage = stage};
   std::vector<std::string> searched;
   for (const auto& directory : directories) searched.push_back(in_quotes(directory.string()));
   throw Error(ExitCode::invalid_input, "there is no shader " + in_quotes(file),
@@ -56,8 +73,14 @@ std::string to_string(Stage stage) {
 ShaderCompiler::ShaderCompiler(ShaderCompilerOptions options) : options_(std::move(options)) {}
 
 std::vector<SpirvModule> ShaderCompiler::compile(std::span<const ShaderSource> stages, const ShaderDefines& defines) {
+  return compile_with(stages, defines, options_.include_directories);
+}
+
+std::vector<SpirvModule> ShaderCompiler::compile_with(std::span<const ShaderSource> stages,
+                                                      const ShaderDefines& defines,
+                                                      std::span<const std::filesystem::path> folders) {
   require_one_pipeline(stages);
-  const IncludeTexts includes = collect_includes(stages, options_.include_directories);
+  const IncludeTexts includes = collect_includes(stages, folders);
   const CacheKey key = cache_key(stages, defines, includes, compiler_identity());
   if (!options_.cache_directory.empty()) {
     CacheLookup lookup = read_cache(options_.cache_directory, key, stages);
@@ -67,7 +90,7 @@ std::vector<SpirvModule> ShaderCompiler::compile(std::span<const ShaderSource> s
       return std::move(*lookup.modules);
     }
   }
-  std::vector<SpirvModule> modules = compile_glsl(stages, defines, includes, options_.include_directories);
+  std::vector<SpirvModule> modules = compile_glsl(stages, defines, includes, folders);
   ++statistics_.compiled;
   if (!options_.cache_directory.empty()) {
     try {
@@ -82,9 +105,23 @@ std::vector<SpirvModule> ShaderCompiler::compile(std::span<const ShaderSource> s
 
 std::vector<SpirvModule> ShaderCompiler::compile_files(std::span<const std::string> files,
                                                        const ShaderDefines& defines) {
+  const std::vector<std::filesystem::path> folders = folders_for(files, options_.include_directories);
   std::vector<ShaderSource> sources;
-  for (const std::string& file : files) sources.push_back(load_shader(file, options_.include_directories));
-  return compile(sources, defines);
+  for (const std::string& file : files) sources.push_back(load_shader(file, folders));
+  return compile_with(sources, defines, folders);
+}
+
+std::string ShaderCompiler::declaration(std::span<const std::string> files, std::string_view name) const {
+  const std::vector<std::filesystem::path> folders = folders_for(files, options_.include_directories);
+  std::vector<ShaderSource> sources;
+  for (const std::string& file : files) sources.push_back(load_shader(file, folders));
+  for (const ShaderSource& source : sources)
+    if (const auto line = declaration_line(source.text, name)) return source.name + ":" + std::to_string(*line);
+  for (const auto& [file, text] : collect_includes(sources, folders))
+    if (const auto line = declaration_line(text, name)) return file + ":" + std::to_string(*line);
+  std::vector<std::string> names;
+  for (const ShaderSource& source : sources) names.push_back(source.name);
+  return join(names, " + ");
 }
 
 }  // namespace lightloom::gpu

@@ -52,12 +52,19 @@ class ShaderCompiler {
   /// one location. Throws Error(invalid_input): "file:line: message" of the first problem, the others in the hint.
   [[nodiscard]] std::vector<SpirvModule> compile(std::span<const ShaderSource> stages,
                                                  const ShaderDefines& defines = {});
-  /// Files found in the include directories (or absolute); the stage is told by the extension .vert, .frag or .comp.
+  /// Files found in the include directories; the stage is told by the extension .vert, .frag or .comp. Beside a file
+  /// that is named by its whole path its includes are looked for first.
   [[nodiscard]] std::vector<SpirvModule> compile_files(std::span<const std::string> files,
                                                        const ShaderDefines& defines = {});
+  /// Where the files, or what they include, declare a name of their interface: "file:line"; their names if none does.
+  [[nodiscard]] std::string declaration(std::span<const std::string> files, std::string_view name) const;
   [[nodiscard]] const CompileStatistics& statistics() const { return statistics_; }
 
  private:
+  [[nodiscard]] std::vector<SpirvModule> compile_with(std::span<const ShaderSource> stages,
+                                                      const ShaderDefines& defines,
+                                                      std::span<const std::filesystem::path> folders);
+
   ShaderCompilerOptions options_;
   CompileStatistics statistics_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -50,7 +51,7 @@ struct Use {
 
 struct GraphPass {
   std::string name;
-  const PassType* type = nullptr;  ///< owned by the registry, which outlives the graph
+  const PassType* type = nullptr;  ///< owned by the registry, which outlives the graph, or by Graph::own_types
   ParamSet params;                 ///< one entry a declared param, in declared order
   std::vector<Use> inputs;         ///< in the order of the type's ports and parts
   std::vector<Use> outputs;
@@ -90,7 +91,8 @@ struct Graph {
   std::vector<PassRemark> culled;    ///< enabled, but neither an output, a capture nor a side effect needs it
   std::vector<PassRemark> bypassed;  ///< disabled; consumers, if any, see its bypass
   std::vector<std::string> notes;    ///< what a swap made fall away, …
-  bool general = false;              ///< LinkOptions::general: shaders are to have every scene feature
+  std::vector<std::shared_ptr<const PassType>> own_types;  ///< of passes of type `compute`
+  bool general = false;  ///< LinkOptions::general: shaders are to have every scene feature
 };
 
 }  // namespace lightloom

@@ -35,6 +35,26 @@ constexpr std::array<KeyDoc, 6> kPassKeys{{
     {"doc", "For people"},
 }};
 
+/// Of a pass of type `compute`.
+constexpr std::array<KeyDoc, 9> kComputeKeys{{
+    {"type", "compute: a GLSL compute shader of one's own; names in it are its ports and params"},
+    {"shader", "File *.comp, beside the graph file, else in the shader folders"},
+    {"in", "Edges to its inputs: the textures that the shader reads, bundles as BUNDLE_PART"},
+    {"out", "What the shader does not say of its outputs, the images out_NAME that it writes"},
+    {"threads", "Output that has a thread for each texel; the first unless given"},
+    {"params", "Its params: values of the shader's push constants and specialization constants"},
+    {"enabled", "false: the pass is off, and each of its outputs is replaced by its bypass"},
+    {"when", "The pass is off unless the scene has the feature, or, with '!', lacks it"},
+    {"doc", "For people"},
+}};
+
+constexpr std::array<KeyDoc, 3> kComputeOutputKeys{{
+    {"format", "Unless the shader names one: rgba32_sfloat where not given"},
+    {"size",
+     "\"view\", \"trace\", \"grid\", \"like INPUT\", \"640x480\" or \"64x64x64\"; that of an input unless given"},
+    {"bypass", "What replaces it where the pass is off: an input, or a constant"},
+}};
+
 constexpr std::array<KeyDoc, 4> kVariantKeys{{
     {"doc", "For people"},
     {"disable", "Passes that are off, by name or pattern ('denoise_*')"},

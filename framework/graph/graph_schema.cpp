@@ -128,19 +128,53 @@ Json pass_type_schema(const PassType& type) {
   return schema;
 }
 
-Json pass_schema(const PassRegistry& registry, const std::vector<std::string>& scene_features) {
+Json when_schema(const std::vector<std::string>& scene_features) {
   Json when = Json::array();
   for (const std::string& feature : scene_features) {
     when.push_back("scene." + feature);
     when.push_back("!scene." + feature);
   }
+  return {{"enum", when}};
+}
+
+Json compute_output_schema() {
+  Json formats = Json::array();
+  for (uint8_t i = 0; i <= static_cast<uint8_t>(Format::d32_sfloat); ++i)
+    if (const FormatInfo& info = format_info(static_cast<Format>(i)); !info.depth) formats.push_back(info.name);
+  const Json number = {{"type", "number"}};
+  const Json color = {{"type", "array"}, {"items", number}, {"minItems", 1}, {"maxItems", 4}};
+  return object_schema(
+      kComputeOutputKeys,
+      {{"format", {{"enum", formats}}},
+       {"size", string_schema("^(view|trace|grid|like [A-Za-z_][A-Za-z0-9_]*|[0-9]+x[0-9]+(x[0-9]+)?)$")},
+       {"bypass", {{"anyOf", Json::array({{{"type", "string"}}, number, color})}}}});
+}
+
+/// What names there are, only the shader knows.
+Json compute_pass_schema(const std::vector<std::string>& scene_features) {
+  const Json edges = {{"anyOf", Json::array({schema_reference("edge"), schema_reference("range_edge")})}};
+  const auto values = [](const Json& form) { return Json{{"type", "object"}, {"additionalProperties", form}}; };
+  return object_schema(kComputeKeys,
+                       {{"type", {{"const", kComputeType}}},
+                        {"shader", {{"type", "string"}}},
+                        {"in", values(edges)},
+                        {"out", values(schema_reference("compute_output"))},
+                        {"threads", {{"type", "string"}}},
+                        {"params", values(scalar_schema())},
+                        {"enabled", {{"type", "boolean"}, {"default", true}}},
+                        {"when", when_schema(scene_features)},
+                        {"doc", {{"type", "string"}}}},
+                       {"type", "shader"});
+}
+
+Json pass_schema(const PassRegistry& registry, const std::vector<std::string>& scene_features) {
   const Json object = {{"type", "object"}};
   Json schema = object_schema(kPassKeys,
                               {{"type", schema_reference("pass_type")},
                                {"in", object},
                                {"params", object},
                                {"enabled", {{"type", "boolean"}, {"default", true}}},
-                               {"when", {{"enum", when}}},
+                               {"when", when_schema(scene_features)},
                                {"doc", {{"type", "string"}}}},
                               {"type"});
   // One branch a type, chosen by its name, so that a mistake is reported as what it is.
@@ -205,7 +239,12 @@ Json graph_schema(const PassRegistry& registry, const std::vector<std::string>& 
   definitions["size"] = size_schema();
   definitions["variant"] = variant_schema();
   definitions["pass_type"] = type_names(registry);
-  definitions["pass"] = pass_schema(registry, scene_features);
+  definitions["compute_output"] = compute_output_schema();
+  definitions["compute_pass"] = compute_pass_schema(scene_features);
+  definitions["typed_pass"] = pass_schema(registry, scene_features);
+  definitions["pass"] = {{"if", {{"required", {"type"}}, {"properties", {{"type", {{"const", kComputeType}}}}}}},
+                         {"then", schema_reference("compute_pass")},
+                         {"else", schema_reference("typed_pass")}};
   for (const std::string& name : registry.names()) definitions["type_" + name] = pass_type_schema(*registry.find(name));
   body["$defs"] = definitions;
   return schema_document("Lightloom graph",

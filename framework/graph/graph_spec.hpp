@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,7 +9,9 @@
 #include <vector>
 
 #include "framework/base/diagnostics.hpp"
+#include "framework/graph/desc.hpp"
 #include "framework/graph/param.hpp"
+#include "framework/graph/pass_type.hpp"
 
 namespace lightloom {
 
@@ -46,6 +49,25 @@ struct ConnectionSpec {
   EdgeSpec edge;
 };
 
+/// What a node of type `compute` says of an output of its shader; what is left out follows from the shader.
+struct ComputeOutputSpec {
+  std::string name;
+  SourceLocation name_where;
+  std::optional<TextSpec> format;             ///< "rgba16_sfloat"
+  std::optional<TextSpec> size;               ///< "view", "trace", "grid", "like INPUT", "640x480", "64x64x64"
+  std::optional<TextSpec> bypass;             ///< the input that replaces it …
+  std::optional<ClearColor> bypass_constant;  ///< … or the constant
+};
+
+/// The type of a node of type `compute`.
+constexpr std::string_view kComputeType = "compute";
+
+struct ComputeSpec {
+  TextSpec shader;  ///< file, as written
+  std::vector<ComputeOutputSpec> outputs;
+  std::optional<TextSpec> threads;  ///< name of the output that has a thread for each texel
+};
+
 struct PassSpec {
   std::string name;
   SourceLocation where;  ///< of the key
@@ -56,6 +78,9 @@ struct PassSpec {
   SourceLocation enabled_where;
   std::optional<TextSpec> when;
   std::string doc;
+  std::optional<ComputeSpec> compute;  ///< exactly if the type is `compute`
+  /// The pass type of this node alone, made from its shader by who can compile it (framework/run/compute_types.hpp).
+  std::shared_ptr<const PassType> own_type;
 };
 
 struct SwapSpec {

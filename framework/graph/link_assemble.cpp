@@ -72,6 +72,7 @@ class Assembler {
     pass.name = node.spec->name;
     pass.type = node.type;
     pass.params = node.resolved;
+    if (node.type == node.spec->own_type.get()) graph_.own_types.push_back(node.spec->own_type);
     for (const ResolvedInput& input : wiring_.inputs[index]) {
       if (input.state != Connection::connected) pass.unconnected.push_back(input.port->name);
       for (std::size_t part = 0; part < input.sources.size(); ++part) {

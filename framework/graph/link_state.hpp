@@ -20,6 +20,7 @@ class Report {
              const std::string& hint = {});
   void warning(std::string_view code, const SourceLocation& where, const std::string& message,
                const std::string& hint = {});
+  [[nodiscard]] bool has_errors() const { return diagnostics_->has_errors(); }
 
  private:
   [[nodiscard]] bool said(std::string_view code, const SourceLocation& where, const std::string& message) const;
@@ -101,6 +102,11 @@ struct Wiring {
   std::vector<std::vector<ResolvedInput>> inputs;  ///< [node][input port in declared order]; disabled nodes: empty
   std::vector<ResolvedOutput> outputs;
 };
+
+/// The type that the file gives a pass, swaps aside; null if there is none of that name, or its shader is broken.
+[[nodiscard]] inline const PassType* type_in_file(const PassSpec& pass, const PassRegistry& registry) {
+  return pass.compute ? pass.own_type.get() : registry.find(pass.type.text);
+}
 
 /// link_variants.cpp: nodes from the file, with its variants checked and the chosen ones and the options applied.
 [[nodiscard]] Nodes make_nodes(const Input& input, Report& report, std::vector<std::string>& notes);

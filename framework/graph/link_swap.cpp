@@ -58,7 +58,7 @@ void drop_misfits(Node& node, const Nodes& nodes, const PassRegistry& registry, 
                     (param == nullptr ? "" : ", which is of another kind there"));
     return true;
   });
-  const PassType* old_type = registry.find(node.spec->type.text);
+  const PassType* old_type = type_in_file(*node.spec, registry);
   for (const ConnectionSpec& connection : node.spec->inputs) {
     const Port* port = node.type->find_port(connection.name, Direction::in);
     const Port* old = old_type == nullptr ? nullptr : old_type->find_port(connection.name, Direction::in);

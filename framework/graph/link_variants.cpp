@@ -81,7 +81,10 @@ class Editor {
 
   void swap(const SwapSpec& entry, const std::string& by) {
     const PassType* type = input_.registry.find(entry.type.text);
-    if (type == nullptr)
+    if (entry.type.text == kComputeType)
+      report_.error("unknown-pass-type", entry.type.where, "a pass cannot be swapped for type 'compute'",
+                    "a pass of type 'compute' has a shader: write it into the graph");
+    else if (type == nullptr)
       report_.error("unknown-pass-type", entry.type.where, "there is no pass type " + in_quotes(entry.type.text),
                     did_you_mean(entry.type.text, input_.registry.names(), "pass types"));
     for (Node* node : match(entry.pass.text, entry.pass.where)) {
@@ -221,12 +224,16 @@ Nodes nodes_of_file(const Input& input, Report& report) {
     }
     if (spec.when) apply_when(node, input.environment, report);
     if (spec.type.text.empty()) continue;
-    node.type = input.registry.find(spec.type.text);
+    node.type = type_in_file(spec, input.registry);
     if (node.type != nullptr) {
       check_declared(node, report);
-    } else {
+    } else if (!spec.compute) {
+      std::vector<std::string> names = input.registry.names();
+      names.emplace_back(kComputeType);
       report.error("unknown-pass-type", spec.type.where, "there is no pass type " + in_quotes(spec.type.text),
-                   did_you_mean(spec.type.text, input.registry.names(), "pass types"));
+                   did_you_mean(spec.type.text, names, "pass types"));
+    } else if (!report.has_errors()) {
+      report.error("shader-error", spec.type.where, "the shader of pass '" + spec.name + "' was not compiled");
     }
   }
   return nodes;

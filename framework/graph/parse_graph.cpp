@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "framework/base/json.hpp"
@@ -168,11 +169,16 @@ class GraphReader {
     pass.type.where = member.value.where;
     const JsonNode& node = member.value;
     if (!expect(node, JsonKind::object, "a pass")) return pass;
-    check_keys(node, kPassKeys, "a pass");
     if (const JsonNode* type = node.find("type")) {
       pass.type = read_text(*type, "'type'");
     } else {
       diagnostics_.error("missing-key", member.where, "pass " + in_quotes(member.key) + " needs a 'type'");
+    }
+    if (pass.type.text == kComputeType) {
+      check_keys(node, kComputeKeys, "a pass of type 'compute'");
+      pass.compute = read_compute(member);
+    } else {
+      check_keys(node, kPassKeys, "a pass");
     }
     if (const JsonNode* inputs = node.find("in")) pass.inputs = read_connections(*inputs, "'in'");
     if (const JsonNode* params = node.find("params")) pass.params = read_scalars(*params, "'params'", false);
@@ -184,6 +190,61 @@ class GraphReader {
       pass.when = TextSpec{when->string, when->where};
     if (const JsonNode* doc = node.find("doc")) pass.doc = read_text(*doc, "'doc'").text;
     return pass;
+  }
+
+  ComputeSpec read_compute(const JsonMember& member) {
+    ComputeSpec compute;
+    if (const JsonNode* shader = member.value.find("shader")) {
+      compute.shader = read_text(*shader, "'shader'");
+    } else {
+      diagnostics_.error("missing-key", member.where,
+                         "pass " + in_quotes(member.key) + " of type 'compute' needs a 'shader'",
+                         "\"shader\": \"FILE.comp\", beside the graph file");
+    }
+    if (const JsonNode* threads = member.value.find("threads")) compute.threads = read_text(*threads, "'threads'");
+    const JsonNode* outputs = member.value.find("out");
+    if (outputs == nullptr || !expect(*outputs, JsonKind::object, "'out'")) return compute;
+    for (const JsonMember& output : outputs->members) compute.outputs.push_back(read_compute_output(output));
+    return compute;
+  }
+
+  ComputeOutputSpec read_compute_output(const JsonMember& member) {
+    ComputeOutputSpec output;
+    output.name = member.key;
+    output.name_where = member.where;
+    const JsonNode& node = member.value;
+    if (!expect(node, JsonKind::object, "an output of a pass")) return output;
+    check_keys(node, kComputeOutputKeys, "an output of a pass");
+    if (const JsonNode* format = node.find("format")) output.format = read_text(*format, "'format'");
+    if (const JsonNode* size = node.find("size")) output.size = read_text(*size, "'size'");
+    const JsonNode* bypass = node.find("bypass");
+    if (bypass != nullptr && bypass->kind == JsonKind::string) {
+      output.bypass = TextSpec{bypass->string, bypass->where};
+    } else if (bypass != nullptr) {
+      output.bypass_constant = read_color(*bypass);
+    }
+    return output;
+  }
+
+  /// A number for all channels, or a list of up to four; what it does not name is 0.
+  ClearColor read_color(const JsonNode& node) {
+    const auto channel = [](const JsonNode& number) {
+      return static_cast<float>(number.kind == JsonKind::integer ? static_cast<double>(number.integer) : number.real);
+    };
+    const auto is_number = [](const JsonNode& number) {
+      return number.kind == JsonKind::integer || number.kind == JsonKind::real;
+    };
+    ClearColor color{0, 0, 0, 0};
+    if (is_number(node)) {
+      color.fill(channel(node));
+    } else if (node.kind == JsonKind::array && !node.elements.empty() && node.elements.size() <= color.size() &&
+               std::all_of(node.elements.begin(), node.elements.end(), is_number)) {
+      std::transform(node.elements.begin(), node.elements.end(), color.begin(), channel);
+    } else {
+      diagnostics_.error("wrong-type", node.where,
+                         "'bypass' must be the name of an input, a number, or a list of 1 to 4 numbers");
+    }
+    return color;
   }
 
   void read_outputs(const JsonNode& node) {

@@ -1,7 +1,7 @@
 #include "framework/run/compile_graph.hpp"
 
 #include "framework/base/file.hpp"
-#include "framework/graph/graph_spec.hpp"
+#include "framework/run/compute_types.hpp"
 #include "framework/run/grid.hpp"
 
 namespace lightloom::run {
@@ -21,16 +21,18 @@ LinkEnvironment link_environment(const scene::Scene* scene) {
 }
 
 std::optional<Graph> link_text(const std::string& text, const std::filesystem::path& file, const PassRegistry& registry,
-                               const LinkOptions& options, const scene::Scene* scene, Diagnostics& diagnostics) {
-  const std::optional<GraphSpec> spec = parse_graph(text, file.string(), diagnostics);
+                               const LinkOptions& options, const scene::Scene* scene, Diagnostics& diagnostics,
+                               const std::optional<ShaderFolders>& shaders) {
+  const std::optional<GraphSpec> spec = parse_graph_text(text, file, registry, shaders, diagnostics);
   if (!spec) return std::nullopt;
   return link(*spec, registry, options, link_environment(scene), diagnostics);
 }
 
 std::optional<Plan> compile_graph(const std::filesystem::path& file, const PassRegistry& registry,
                                   const LinkOptions& options, const scene::Scene* scene, Diagnostics& diagnostics,
-                                  const CompileOptions& compile_options) {
-  const std::optional<Graph> graph = link_text(read_text_file(file), file, registry, options, scene, diagnostics);
+                                  const CompileOptions& compile_options, const std::optional<ShaderFolders>& shaders) {
+  const std::optional<Graph> graph =
+      link_text(read_text_file(file), file, registry, options, scene, diagnostics, shaders);
   if (!graph) return std::nullopt;
   return compile(*graph, compile_options);
 }

@@ -223,10 +223,12 @@ void Executor::record_pass(VkCommandBuffer commands, const GraphPass& pass) {
                          .scene = &scene_.bindings(),
                          .placeholders = &placeholders_,
                          .shaders = &shaders_,
-                         .descriptors = &descriptors_},
+                         .descriptors = &descriptors_,
+                         .watch = &watch_},
                         plan_.graph, pass);
   pass.type->record(recorder);
   recorder.finish();
+  watch_.ends(plan_.graph, pass);
 }
 
 void Executor::run_host_pass(gpu::CommandSession& session, const GraphPass& pass) {

@@ -129,6 +129,7 @@ class Executor {
   std::optional<Poison> poison_;
   std::optional<ValueScan> scan_;  ///< where the plan has any
   gpu::DescriptorAllocator descriptors_;
+  AccessWatch watch_;
   gpu::TimestampPool timestamps_;
   std::map<std::string, double, std::less<>> host_milliseconds_;  ///< by pass, of its last run
   std::optional<FinishedFrame> under_way_;                        ///< what is known of it beforehand

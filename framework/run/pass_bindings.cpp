@@ -1,7 +1,6 @@
 #include "framework/run/pass_bindings.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "framework/base/error.hpp"
 
@@ -21,49 +20,6 @@ ShaderValue shader_value(const ParamSet& params, const ParamSet::Entry& entry) {
       return {name, params.choice_index(name)};
   }
   throw Error(ExitCode::run_failed, "param '" + name + "' has no known type");
-}
-
-struct DeclaredRead {
-  std::string_view name;  ///< of a binding, or of a member of the frame block
-  FrameState any_of = FrameState::none;
-};
-
-constexpr FrameState kGeometry = FrameState::static_geometry | FrameState::dynamic_geometry;
-constexpr std::array kBindings = {
-    DeclaredRead{"VertexBlock", kGeometry},
-    DeclaredRead{"TriangleBlock", kGeometry},
-    DeclaredRead{"PrimitiveBlock", kGeometry},
-    DeclaredRead{"scene_tlas", kGeometry},
-    DeclaredRead{"PastPositionBlock", FrameState::dynamic_geometry},
-    DeclaredRead{"MaterialBlock", FrameState::materials},
-    DeclaredRead{"texture_pages", FrameState::materials},
-    DeclaredRead{"LightBlock", FrameState::lights | FrameState::materials},
-    DeclaredRead{"environment_map", FrameState::lights},
-    DeclaredRead{"environment_table", FrameState::lights},
-};
-/// The rest of the frame block is the same in every frame.
-constexpr std::array kFrameMembers = {
-    DeclaredRead{"view_projection", FrameState::camera},
-    DeclaredRead{"eye", FrameState::camera},
-    DeclaredRead{"inverse_view_projection", FrameState::camera},
-    DeclaredRead{"motion", FrameState::dynamic_geometry},
-    // Which frame it is, the seed, and how many frames the histories hold, which goes with the cameras of the past.
-    DeclaredRead{"ids", FrameState::time | FrameState::seed | FrameState::camera},
-};
-
-/// What materials emit stays; where the emitters and other lights are need not.
-constexpr std::array kLightMembers = {
-    DeclaredRead{"emissions", FrameState::lights | FrameState::materials},
-    DeclaredRead{"emitters", FrameState::lights},
-    DeclaredRead{"hints", FrameState::lights},
-    DeclaredRead{"punctual", FrameState::lights},
-};
-
-template <size_t N>
-bool declared(const std::array<DeclaredRead, N>& rows, std::string_view name, FrameState reads) {
-  return std::all_of(rows.begin(), rows.end(), [&](const DeclaredRead& row) {
-    return row.name != name || (row.any_of & reads) != FrameState::none;
-  });
 }
 
 }  // namespace
@@ -116,24 +72,6 @@ std::vector<ShaderValue> specialization_values(const gpu::Reflection& reflection
     if (found != values.end()) chosen.push_back(*found);
   }
   return chosen;
-}
-
-void require_declared_read(const GraphPass& pass, const gpu::Binding& binding, std::string_view shader) {
-  const FrameState reads = pass.type->reads_of(pass.params);
-  std::string undeclared;
-  if (!declared(kBindings, binding.name, reads)) undeclared = binding.name;
-  // A member may stand in a branch that these params do not take; the block is bound in any case.
-  for (const gpu::BlockMember& member : binding.members) {
-    const bool allowed = binding.name == "FrameBlock"   ? declared(kFrameMembers, member.name, pass.type->reads)
-                         : binding.name == "LightBlock" ? declared(kLightMembers, member.name, pass.type->reads)
-                                                        : true;
-    if (member.used && !allowed) undeclared = binding.name + "." + member.name;
-  }
-  if (undeclared.empty()) return;
-  throw Error(ExitCode::run_failed,
-              "pass '" + pass.name + "' (" + pass.type->name + "): shader '" + std::string(shader) + "' reads '" +
-                  undeclared + "', which the pass type does not declare among what it reads with its params",
-              "add the frame state to PassType::reads or reads_with");
 }
 
 bool names_unconnected_input(const GraphPass& pass, std::string_view binding) {

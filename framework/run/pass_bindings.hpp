@@ -26,11 +26,6 @@ namespace lightloom::run {
 [[nodiscard]] std::vector<ShaderValue> specialization_values(const gpu::Reflection& reflection,
                                                              const std::vector<ShaderValue>& values);
 
-/// Throws Error(run_failed) where a shader reads a scene binding that its pass type does not declare to read with the
-/// pass's params, or names a member of the frame or light block that the type does not declare to read at all: what a
-/// pass reads decides when it must run again, so it may not read in silence.
-void require_declared_read(const GraphPass& pass, const gpu::Binding& binding, std::string_view shader);
-
 /// Whether `binding` is the shader name of an optional input of the pass that is not connected.
 [[nodiscard]] bool names_unconnected_input(const GraphPass& pass, std::string_view binding);
 

@@ -8,6 +8,7 @@
 #include "framework/graph/voxel_box.hpp"
 #include "framework/run/moved_boxes.hpp"
 #include "framework/run/pass_bindings.hpp"
+#include "framework/run/scene_reads.hpp"
 
 namespace lightloom::run {
 namespace {
@@ -89,6 +90,7 @@ void PassRecorder::clear(std::string_view port, const ClearColor& color) {
       record_clear(environment_.commands, *layer.image, layer.layer, color);
     }
   }
+  environment_.watch->clears(pass_, port);
 }
 
 std::vector<ShaderValue> PassRecorder::values_for(const gpu::Reflection& reflection,
@@ -124,8 +126,15 @@ VkDescriptorSet PassRecorder::bind_resources(const gpu::Pipeline& pipeline) cons
   return environment_.descriptors->allocate(pipeline, lookup);
 }
 
+const gpu::ShaderProgram& PassRecorder::watched_program(const std::vector<std::string>& files) const {
+  const gpu::ShaderProgram& program = environment_.shaders->program(files);
+  environment_.watch->runs(pass_, program.reflection,
+                           [&](std::string_view name) { return environment_.shaders->declaration(files, name); });
+  return program;
+}
+
 void PassRecorder::dispatch(const Dispatch& dispatch) {
-  const gpu::ShaderProgram& program = environment_.shaders->program({dispatch.shader});
+  const gpu::ShaderProgram& program = watched_program({dispatch.shader});
   const std::vector<ShaderValue> values = values_for(program.reflection, dispatch.values);
   const std::vector<ShaderValue> constants = specialization_values(program.reflection, values);
   const gpu::Pipeline& pipeline = environment_.shaders->pipelines().compute(program, constants);
@@ -149,7 +158,7 @@ gpu::ImageView PassRecorder::written_view(const Use& use) const {
 }
 
 void PassRecorder::draw(const Draw& draw) {
-  const gpu::ShaderProgram& program = environment_.shaders->program({draw.vertex_shader, draw.fragment_shader});
+  const gpu::ShaderProgram& program = watched_program({draw.vertex_shader, draw.fragment_shader});
   std::vector<Touch> touches = bound_touches(pass_, program.reflection);
   std::vector<gpu::ColorTarget> colors;
   gpu::AttachmentFormats formats;

@@ -8,6 +8,7 @@
 #include "framework/graph/graph.hpp"
 #include "framework/graph/pass_context.hpp"
 #include "framework/run/command_hazards.hpp"
+#include "framework/run/declared_access.hpp"
 #include "framework/run/placeholders.hpp"
 #include "framework/run/scene_bindings.hpp"
 #include "framework/run/shader_library.hpp"
@@ -24,6 +25,7 @@ struct RecordingEnvironment {
   const Placeholders* placeholders = nullptr;
   ShaderLibrary* shaders = nullptr;
   gpu::DescriptorAllocator* descriptors = nullptr;
+  AccessWatch* watch = nullptr;
 };
 
 /// The context that a pass records through: finds shaders, binds ports and scene by name, fills constants by name, and
@@ -48,6 +50,8 @@ class PassRecorder final : public PassContext {
   void finish();
 
  private:
+  /// The program of these files, held against what the pass type declares.
+  [[nodiscard]] const gpu::ShaderProgram& watched_program(const std::vector<std::string>& files) const;
   [[nodiscard]] const Use& written_use(std::string_view shader_name) const;
   [[nodiscard]] gpu::ImageView written_view(const Use& use) const;
   [[nodiscard]] std::vector<ShaderValue> values_for(const gpu::Reflection& reflection,

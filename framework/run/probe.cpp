@@ -200,7 +200,7 @@ bool probe(const ProbeRequest& request, const PassRegistry& registry, const Fram
   std::optional<scene::CameraPath> path;
   if (!render.camera_path.empty()) path = scene::read_camera_path(render.camera_path);
   const std::optional<Graph> graph =
-      link_text(read_text_file(render.graph), render.graph, registry, render.link, &scene, diagnostics);
+      link_text(read_text_file(render.graph), render.graph, registry, render.link, &scene, diagnostics, render.shaders);
   if (!graph) return false;
   require_pixel(request, graph->view);
   const std::vector<bool> watched = watched_values(*graph);

@@ -170,7 +170,8 @@ bool render(const RenderRequest& request, const PassRegistry& registry, const Fr
   std::optional<scene::CameraPath> path;
   if (!request.camera_path.empty()) path = scene::read_camera_path(request.camera_path);
   const std::string graph_text = read_text_file(request.graph);
-  const std::optional<Graph> graph = link_text(graph_text, request.graph, registry, request.link, &scene, diagnostics);
+  const std::optional<Graph> graph =
+      link_text(graph_text, request.graph, registry, request.link, &scene, diagnostics, request.shaders);
   if (!graph) return false;
   CompileOptions compile_options = request.compile;
   compile_options.scan = compile_options.scan || request.checks.any();

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,10 @@ class ShaderLibrary {
   ShaderLibrary(const gpu::Device& device, gpu::ShaderCompilerOptions options)
       : compiler_(std::move(options)), pipelines_(device) {}
   const gpu::ShaderProgram& program(const std::vector<std::string>& files);
+  /// Where a program's shaders declare a name of their interface: "file:line".
+  [[nodiscard]] std::string declaration(const std::vector<std::string>& files, std::string_view name) const {
+    return compiler_.declaration(files, name);
+  }
   [[nodiscard]] gpu::PipelineCache& pipelines() { return pipelines_; }
 
  private:

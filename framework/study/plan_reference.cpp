@@ -4,9 +4,9 @@
 #include <array>
 #include <utility>
 
-#include "framework/base/file.hpp"
 #include "framework/base/hash.hpp"
 #include "framework/base/text.hpp"
+#include "framework/run/compute_types.hpp"
 #include "framework/run/run_folder.hpp"
 #include "framework/study/fingerprint.hpp"
 #include "framework/study/linked_graph.hpp"
@@ -74,7 +74,7 @@ void ReferencePlanner::run() {
   const ReferenceSpec& spec = plan_.spec.reference;
   std::optional<GraphSpec> other;
   if (spec.kind == ReferenceSpec::Kind::graph) {
-    other = parse_graph(read_text_file(spec.graph), spec.graph.string(), diagnostics_);
+    other = run::read_graph(spec.graph, registry_, plan_.shaders, diagnostics_);
     if (!other || diagnostics_.has_errors()) return;
     for (const char* name : kModelParams)
       if (std::any_of(other->params.begin(), other->params.end(),

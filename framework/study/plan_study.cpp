@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "framework/base/error.hpp"
-#include "framework/base/file.hpp"
 #include "framework/run/compile_graph.hpp"
+#include "framework/run/compute_types.hpp"
 #include "framework/run/scene_resources.hpp"
 #include "framework/study/fingerprint.hpp"
 #include "framework/study/linked_graph.hpp"
@@ -70,7 +70,7 @@ class Planner {
   }
 
   std::optional<StudyPlan> plan() {
-    graph_ = parse_graph(read_text_file(plan_.spec.graph), plan_.spec.graph.string(), diagnostics_);
+    graph_ = run::read_graph(plan_.spec.graph, registry_, plan_.shaders, diagnostics_);
     if (!graph_ || diagnostics_.has_errors()) return std::nullopt;
     plan_.scenes = load_scenes(plan_.spec);
     plan_.views = find_views(plan_.spec, plan_.scenes);

@@ -7,6 +7,7 @@
 #include "framework/graph/graph_spec.hpp"
 #include "framework/graph/plan.hpp"
 #include "framework/run/compile_graph.hpp"
+#include "framework/run/compute_types.hpp"
 #include "framework/run/executor.hpp"
 #include "passes/registry.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -22,10 +23,11 @@ namespace {
 }
 
 Plan compile_text(std::string_view graph_json, const PassRegistry& registry, const LinkOptions& options,
-                  const scene::Scene& scene) {
+                  const scene::Scene& scene, const run::ShaderFolders& shaders) {
   Diagnostics diagnostics;
-  const std::optional<GraphSpec> spec = parse_graph(graph_json, "test.json", diagnostics);
+  std::optional<GraphSpec> spec = parse_graph(graph_json, "test.json", diagnostics);
   if (!spec) fail(diagnostics);
+  run::make_compute_types(*spec, registry, shaders, diagnostics);
   const std::optional<Graph> graph = link(*spec, registry, options, run::link_environment(&scene), diagnostics);
   if (!graph) fail(diagnostics);
   return compile(*graph);
@@ -62,7 +64,7 @@ void visit_frames(std::string_view graph_json, const scene::Scene& scene, const 
   link_options.captures.insert(link_options.captures.end(), options.capture.begin(), options.capture.end());
   run::ShaderFolders shaders = run::default_shader_folders();
   shaders.sources.push_back(source_dir() / "tests/passes/shaders");
-  run::Executor executor(shared_device(), compile_text(graph_json, registry, link_options, scene), scene,
+  run::Executor executor(shared_device(), compile_text(graph_json, registry, link_options, scene, shaders), scene,
                          {.shaders = shaders,
                           .camera = options.camera,
                           .seed = options.seed,
