@@ -63,12 +63,13 @@ constexpr std::array<FormatRow, 11> kFormats{{
 }};
 
 /// Throws Error(invalid_input) for one that no value can have.
-std::optional<Format> image_format(SpvImageFormat format, const std::string& image) {
+std::optional<Format> image_format(SpvImageFormat format, const std::string& image, const std::string& shader) {
   if (format == SpvImageFormatUnknown) return std::nullopt;
   const auto* const found =
       std::find_if(kFormats.begin(), kFormats.end(), [format](const FormatRow& row) { return row.shader == format; });
   if (found != kFormats.end()) return found->format;
-  throw Error(ExitCode::invalid_input, "the image " + in_quotes(image) + " has a format that no value can have",
+  throw Error(ExitCode::invalid_input,
+              "shader " + shader + ": the image " + in_quotes(image) + " has a format that no value can have",
               "r8, rgba8, r16f, rg16f, rgba16f, r32f, rg32f, rgba32f, r32ui, rg32ui or rgba32ui");
 }
 
@@ -80,7 +81,7 @@ void read_image(const SpirvReader& reader, const spvc_reflected_resource& resour
   binding.numeric =
       spvc_type_get_basetype(sampled) == SPVC_BASETYPE_UINT32 ? NumericClass::unsigned_integer : NumericClass::floating;
   if (binding.kind != BindingKind::storage_image) return;
-  binding.format = image_format(spvc_type_get_image_storage_format(type), binding.name);
+  binding.format = image_format(spvc_type_get_image_storage_format(type), binding.name, reader.name());
   binding.readable = spvc_compiler_has_decoration(reader.get(), resource.id, SpvDecorationNonReadable) == SPVC_FALSE;
   binding.writable = spvc_compiler_has_decoration(reader.get(), resource.id, SpvDecorationNonWritable) == SPVC_FALSE;
 }

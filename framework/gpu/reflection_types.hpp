@@ -19,6 +19,7 @@ class SpirvReader {
   SpirvReader& operator=(const SpirvReader&) = delete;
 
   [[nodiscard]] spvc_compiler get() const { return compiler_; }
+  [[nodiscard]] const std::string& name() const { return name_; }  ///< of the shader
   /// Throws Error(invalid_input) unless `result` is a success.
   void check(spvc_result result) const;
   /// Resources of one type that the entry point uses.

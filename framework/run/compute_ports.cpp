@@ -91,7 +91,9 @@ bool ComputePorts::usable(const gpu::Binding& binding) {
   const bool image = binding.kind == sampled_image || binding.kind == storage_image;
   if (!image) {
     const bool sampler = binding.kind == combined_sampler || binding.kind == gpu::BindingKind::sampler;
-    shader_error(binding, "is a " + std::string(gpu::to_string(binding.kind)) + ", which no port can be",
+    const std::string kind(gpu::to_string(binding.kind));
+    const bool vowel = std::string_view("aeiou").find(kind.front()) != std::string_view::npos;
+    shader_error(binding, (vowel ? "is an " : "is a ") + kind + ", which no port can be",
                  sampler ? "declare an input texture2D or texture3D and read it by texelFetch"
                          : "values are images; the blocks of scene and frame are those of lib/scene.glsl");
     return false;

@@ -177,6 +177,7 @@ void PassRecorder::draw(const Draw& draw) {
     depth = gpu::DepthTarget{written_view(use), 1.0f};
     formats.depth = depth->view.format;
     extent = graph_.values[use.value].desc.extent;
+    environment_.watch->clears(pass_, use.port);
   }
   const std::vector<ShaderValue> values = values_for(program.reflection, draw.values);
   const gpu::Pipeline& pipeline =

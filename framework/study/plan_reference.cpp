@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "framework/base/file.hpp"
 #include "framework/base/hash.hpp"
 #include "framework/base/text.hpp"
 #include "framework/run/compute_types.hpp"

@@ -63,6 +63,7 @@ TEST(BadGraphs, AllAndOnlyTheExpectedDiagnostics) {
 TEST(BadGraphs, EveryFileIsListed) {
   const JsonNode expected = read_expected();
   for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+    if (entry.is_directory()) continue;  // graphs with shaders, which are compiled before they are linked
     const std::string name = entry.path().filename().string();
     EXPECT_TRUE(name == "expected.json" || expected.find(name) != nullptr) << name;
   }

@@ -1,0 +1,9 @@
+#version 460
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform texture2D radiance;
+layout(rgba16f) uniform writeonly image2D out_radiance;
+layout(push_constant) uniform Params { float amount; };
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  imageStore(out_radiance, pixel, amount * texelFetch(radiance, pixel, 0));
+}
