@@ -64,9 +64,12 @@ class ImageCheck {
   void run() const {
     check_shape();
     port_.direction == Direction::in ? check_read() : check_written();
-    // What a pass keeps to itself its own commands may touch in any stage.
+    // What a pass keeps to itself its own commands may touch in any stage, and any may read what one of them wrote.
     const VkPipelineStageFlags2 outside = pipeline_stages(binding_.stages) & ~access_.stages;
-    if (port_.direction != Direction::scratch && outside != 0 && (binding_.reads || binding_.writes))
+    const bool seen_outside = port_.direction == Direction::in    ? binding_.reads
+                              : port_.direction == Direction::out ? binding_.writes
+                                                                  : false;
+    if (outside != 0 && seen_outside)
       fail("is used in another stage of the pipeline", "declare an access of the stage that uses it");
   }
 
