@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "framework/graph/pass_context.hpp"
 #include "framework/graph/port.hpp"
 #include "passes/bundles.hpp"
 
@@ -67,6 +69,31 @@ inline Port image_output_like(std::string name, Format format, std::string like,
   port.access = Access::compute_storage_write;
   port.doc = std::move(doc);
   return port;
+}
+
+/// The same output, replaced by the input `input` where the pass is disabled.
+inline Port bypassed_by(std::string input, Port port) {
+  port.bypass = Bypass{std::move(input), {}};
+  return port;
+}
+
+/// The same output, replaced by a constant where the pass is disabled.
+inline Port bypassed_by(const ClearColor& constant, Port port) {
+  port.bypass = Bypass{"", constant};
+  return port;
+}
+
+/// The same input, which may be left unconnected; the shader's constant `NAME_bound` tells.
+inline Port optional(Port port) {
+  port.optional = true;
+  return port;
+}
+
+/// What a pass records that is one dispatch of `shader`, with a thread for each texel of the output `output`.
+inline std::function<void(PassContext&)> one_dispatch(std::string shader, std::string output) {
+  return [shader = std::move(shader), output = std::move(output)](PassContext& context) {
+    context.dispatch({shader, context.output_extent(output), {}});
+  };
 }
 
 /// The images of a bundle, made together; the port has the bundle's name.

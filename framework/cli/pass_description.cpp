@@ -3,6 +3,7 @@
 #include "framework/base/text.hpp"
 #include "framework/cli/argument_values.hpp"
 #include "framework/cli/text_layout.hpp"
+#include "framework/graph/graph_spec.hpp"
 
 namespace lightloom::cli {
 namespace {
@@ -199,6 +200,11 @@ std::string list_passes(const PassRegistry& registry) {
     text += name + std::string(padding, ' ') +
             wrap(first_sentence(registry.find(name)->doc), kColumns, kNameColumn, kNameColumn) + "\n";
   }
+  const std::string compute(kComputeType);
+  text += compute + std::string(kNameColumn - compute.size(), ' ') +
+          wrap("A GLSL compute shader of one's own, whose names are the ports and params.", kColumns, kNameColumn,
+               kNameColumn) +
+          "\n";
   return text;
 }
 
@@ -215,7 +221,7 @@ std::string passes_markdown(const PassRegistry& registry) {
       "# Pass types\n\nMade by `lightloom passes --markdown`; do not edit. `lightloom passes TYPE` prints one of them, "
       "`--json` is for programs.\n\nA port is one image, or a bundle of images that travel together (`surface`, "
       "`voxels`). A disabled pass\ngives its bypass in the place of each output; an output without one cannot be "
-      "spared.\n";
+      "spared.\n\nA pass of type `compute` runs a shader of one's own: [writing_a_pass.md](writing_a_pass.md).\n";
   for (const std::string& name : registry.names()) write_markdown(*registry.find(name), text);
   return text;
 }

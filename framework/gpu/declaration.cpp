@@ -70,7 +70,7 @@ std::optional<uint32_t> declaration_line(std::string_view text, std::string_view
   bool interface_statement = false;  // since the last ';' or '}' outside of braces
   for (size_t i = 0; i < tokens.size(); ++i) {
     const std::string_view token = tokens[i].text;
-    const bool follows_word = i > 0 && is_word(tokens[i - 1].text);
+    const bool follows_word = i > 0 && (is_word(tokens[i - 1].text) || tokens[i - 1].text == ",");
     const std::string_view next = i + 1 < tokens.size() ? tokens[i + 1].text : " ";
     if (token == name && follows_word && interface_statement && one_of(next, depth == 0 ? ";,[={" : ";,["))
       return tokens[i].line;

@@ -32,9 +32,7 @@ constexpr uint64_t plugin_interface() {
 
 /// What a plug-in exports, with C linkage and under the name `lightloom_plugin`:
 ///
-///     extern "C" const lightloom::Plugin lightloom_plugin{
-///         lightloom::plugin_interface(), LIGHTLOOM_VERSION, "my_passes", "1.0",
-///         [](lightloom::PassRegistry& registry) { registry.add(make_my_pass()); }};
+///     LIGHTLOOM_PLUGIN("my_passes", "1.0", make_my_pass(), make_another())
 ///
 /// Its shaders lie in the folder `shaders` beside the library.
 struct Plugin {
@@ -44,5 +42,14 @@ struct Plugin {
   const char* version = "";
   void (*add_passes)(PassRegistry&) = nullptr;
 };
+
+/// Exports a plug-in of this name and version with these pass types.
+// A macro, since what it writes must be compiled as a part of the plug-in.
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
+#define LIGHTLOOM_PLUGIN(name, version, ...)                                                                   \
+  extern "C" __attribute__((visibility("default"))) const lightloom::Plugin lightloom_plugin{                  \
+      lightloom::plugin_interface(), LIGHTLOOM_VERSION, name, version, [](lightloom::PassRegistry& registry) { \
+        for (const lightloom::PassType& type : {__VA_ARGS__}) registry.add(type);                              \
+      }};
 
 }  // namespace lightloom

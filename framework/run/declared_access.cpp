@@ -166,7 +166,7 @@ void check_constant(const PassType& type, const std::string& name, gpu::ScalarTy
   throw Error(ExitCode::run_failed,
               "pass type '" + type.name + "': param '" + name + "' is " + std::string(type_name(param->type)) +
                   (negative ? " that may be negative" : "") + ", but " + place(name) + ": " + in_quotes(name) +
-                  " is a " + std::string(gpu::to_string(given)),
+                  " is of type " + std::string(gpu::to_string(given)),
               "booleans are bool (as push constants uint), integers int or uint, choices uint, real numbers float");
 }
 

@@ -208,7 +208,7 @@ TEST(Docs, every_command_of_the_program_is_documented) {
   const auto [status, help] = sandbox.run("lightloom --help");
   ASSERT_EQ(status, 0);
   for (const char* command :
-       {"render", "check", "plan", "passes", "schema", "scene", "brdf", "compare", "study", "devices", "completion"}) {
+       {"render", "check", "plan", "passes", "schema", "scene", "brdf", "compare", "study", "new", "devices", "completion"}) {
     EXPECT_THAT(help, ::testing::HasSubstr(std::string("\n  ") + command + " "));
     EXPECT_THAT(page, ::testing::HasSubstr(std::string("lightloom ") + command));
   }

@@ -60,7 +60,8 @@ class GraphSchema : public ::testing::Test {
 TEST_F(GraphSchema, AcceptsTheGraphsThatShip) {
   std::vector<fs::path> files = files_in(source_dir() / "graphs");
   for (const fs::path& file : files_in(source_dir() / "samples/graphs")) files.push_back(file);
-  ASSERT_GE(files.size(), 5U);
+  for (const fs::path& file : files_in(source_dir() / "samples/compute_pass")) files.push_back(file);
+  ASSERT_GE(files.size(), 6U);
   const std::vector<std::string> answers = check(files);
   for (size_t i = 0; i < files.size(); ++i) EXPECT_EQ(answers[i], "yes") << files[i];
 }
@@ -94,6 +95,16 @@ TEST_F(GraphSchema, RefusesBrokenGraphsByEveryRuleThatASchemaCanSay) {
     }
   }
   EXPECT_EQ(beyond, kBeyondSchema.size()) << "a file of the list is gone";
+}
+
+TEST_F(GraphSchema, RefusesBrokenPassesOfTypeCompute) {
+  const fs::path folder_of_bad = source_dir() / "tests/graphs_bad/compute";
+  const std::vector<std::string> answers =
+      check(std::vector<fs::path>{folder_of_bad / "keys.json", folder_of_bad / "sizes.json",
+                                  folder_of_bad / "no_shader.json", folder_of_bad / "other_type.json",
+                                  folder_of_bad / "missing_param.json"});
+  for (size_t i = 0; i < 4; ++i) EXPECT_NE(answers[i], "yes") << i;
+  EXPECT_EQ(answers[4], "yes") << "what params there are, only the shader knows";
 }
 
 /// A graph with one pass, which may be off, so that it needs no inputs.

@@ -37,6 +37,35 @@ render paper
 grep -q '"name": "sky_light"' "$work/own/run.json" || fail "run.json does not name the plug-in"
 grep -q '"type": "sky_light_trace"' "$work/own/run.json" || fail "run.json does not name the pass"
 
+# The effect on the picture: with amount 0 the picture is what it would be without, else it is another.
+sharpened() { # sharpened NAME OPTION...
+  local out=$work/$1
+  shift
+  "$lightloom" render "$work/plugin/sharpened.json" --scene "$scene" --size 80x60 --set voxelize.resolution=32 \
+    --set trace.paths=1 --plugin "$work/built/sharpen.so" --validate --out "$out" "$@" 2>"$work/messages" >/dev/null ||
+    { cat "$work/messages" >&2; fail "sharpening"; }
+  ! grep -q 'validation:' "$work/messages" || fail "validation: $(cat "$work/messages")"
+}
+sharpened plain --disable sharpen
+sharpened zero --set sharpen.amount=0
+sharpened sharp
+cmp -s "$work/plain/image.0000.png" "$work/zero/image.0000.png" || fail "an amount of 0 changes the picture"
+! cmp -s "$work/plain/image.0000.png" "$work/sharp/image.0000.png" || fail "an amount of 1 changes nothing"
+
+# Skeletons as they come out: the plug-in, and the shader alone, which do the same.
+(cd "$work" && "$lightloom" new pass glow >"$work/next" && "$lightloom" new pass glimmer --compute >/dev/null)
+grep -q -- "-DCMAKE_PREFIX_PATH=$work/installed" "$work/next" || fail "it does not say where Lightloom is: $(cat "$work/next")"
+grep '^  cmake' "$work/next" | (cd "$work" && bash -e) >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "building the skeleton"; }
+skeleton() { # skeleton NAME OPTION...
+  "$lightloom" render "$work/$1/$1.json" --scene "$scene" --size 80x60 --set voxelize.resolution=32 --set trace.paths=1 \
+    --validate --out "$work/$1.out" "${@:2}" 2>"$work/messages" >/dev/null || { cat "$work/messages" >&2; fail "rendering $1"; }
+  ! grep -q 'validation:' "$work/messages" || fail "validation: $(cat "$work/messages")"
+}
+skeleton glow --plugin "$work/glow/build/glow_pass.so"
+skeleton glimmer
+cmp -s "$work/glow.out/image.0000.png" "$work/glimmer.out/image.0000.png" || fail "the two skeletons differ"
+! cmp -s "$work/glow.out/image.0000.png" "$work/plain/image.0000.png" || fail "the skeletons do nothing"
+
 # Named by the environment, and known to the other commands.
 LIGHTLOOM_PLUGINS=$work/built/sky_light.so "$lightloom" passes | grep -q sky_light_trace || fail "passes does not list it"
 LIGHTLOOM_PLUGINS=$work/built/sky_light.so "$lightloom" schema graph --out "$work/schema"
