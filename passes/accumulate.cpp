@@ -35,8 +35,8 @@ PassType make_accumulate() {
   type.doc =
       "Mean over all frames since the view last changed, for pictures that become better the longer they are rendered. "
       "The sums are compensated (Neumaier 1974, Dekker 1971), so that the mean of 100000 frames is exact to the "
-      "rounding of 32-bit "
-      "floats. A frame with a NaN or an infinity in a pixel is left out there. The scene should not move.";
+      "rounding of 32-bit floats. A frame with a NaN or an infinity in a pixel is left out there. The scene should not "
+      "move.";
   Port radiance = image_output_like("radiance", Format::rgba32_sfloat, "radiance",
                                     "rgb: mean; a: number of frames in it that saw a surface (a above 0)");
   radiance.bypass = Bypass{"radiance", {}};
@@ -45,10 +45,9 @@ PassType make_accumulate() {
       "rgb: standard error of the mean, from the frames' own errors or, without those, from how the frames differ "
       "(Welford 1962), which needs two; 10000 where it is unknown; a: number of frames in the mean");
   error.bypass = Bypass{"", {kUnknownError, kUnknownError, kUnknownError, 0}};
-  Port own_error =
-      image_input("standard_error", Format::rgba32_sfloat,
-                  "rgb: standard error of each frame's radiance, estimated within the frame; 0 in all three where it "
-                  "is not known");
+  Port own_error = image_input(
+      "standard_error", Format::rgba32_sfloat,
+      "rgb: standard error of each frame's radiance, estimated within the frame; 0 in all three where it is not known");
   own_error.optional = true;
   Port accumulation = bundle_output("accumulation", accumulation_parts(), ExtentRule::like,
                                     Access::compute_storage_write, "what the next frame goes on from");
@@ -62,9 +61,7 @@ PassType make_accumulate() {
       accumulation,
   };
   type.reads = FrameState::camera;
-  type.record = [](PassContext& context) {
-    context.dispatch({"accumulate.comp", context.output_extent("radiance"), {}});
-  };
+  type.record = one_dispatch("accumulate.comp", "radiance");
   return type;
 }
 

@@ -1,5 +1,6 @@
 #include "passes/distance_transform.hpp"
 
+#include "passes/param_rows.hpp"
 #include "passes/port_rows.hpp"
 #include "passes/voxel_boxes.hpp"
 
@@ -41,22 +42,15 @@ PassType make_distance_transform() {
   type.doc =
       "Chessboard distance to the nearest occupied voxel, exact up to `radius` (the paper's partial distance "
       "transform, section 2.1). Separable: along each axis d' = min over k of max(|k|, d); 0 in an occupied voxel, "
-      "radius + 1 where none lies within the radius. Outside the grid is empty. Rewritten only up to the "
-      "radius around what moved. It says where the voxels are, so it cannot be spared; `march` dda does without "
-      "its lengths.";
+      "radius + 1 where none lies within the radius. Outside the grid is empty. Rewritten only up to the radius around "
+      "what moved. It says where the voxels are, so it cannot be spared; `march` dda does without its lengths.";
   Port distance = volume("distance", Direction::out, Access::compute_storage_write, "distance [voxels / 255]");
   type.ports = {voxels_input("voxels", "alpha of the albedo image is the occupancy"), distance,
                 scratch_volume("along_x", "distance within the row [voxels / 255]"),
                 scratch_volume("along_xy", "distance within the slice [voxels / 255]")};
-  type.params = {{"radius",
-                  ParamType::integer,
-                  int64_t{4},
-                  1,
-                  31,
-                  {},
-                  "voxels",
-                  "up to where distances are exact; the paper's author used 4"},
-                 update_param()};
+  type.params = {
+      integer_param("radius", 4, 1, 31, "voxels", "up to where distances are exact; the paper's author used 4"),
+      update_param()};
   type.record = record;
   return type;
 }

@@ -22,9 +22,7 @@ PassType make_modulate() {
                             "divided by the diffuse colour"),
                 specular, same_size_as("radiance", surface_input("surface", "G-buffer of the same pixels")), radiance};
   type.reads = FrameState::camera | FrameState::lights;
-  type.record = [](PassContext& context) {
-    context.dispatch({"modulate.comp", context.output_extent("radiance"), {}});
-  };
+  type.record = one_dispatch("modulate.comp", "radiance");
   return type;
 }
 

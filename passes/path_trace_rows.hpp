@@ -5,6 +5,7 @@
 
 #include "framework/graph/param.hpp"
 #include "framework/graph/port.hpp"
+#include "passes/param_rows.hpp"
 
 // What passes that trace paths from the G-buffer on the device have in common: outputs and params of the same names, so
 // that one type can take another's place.
@@ -16,8 +17,5 @@ namespace lightloom::passes {
 
 /// `own` among the params that all such passes take.
 [[nodiscard]] std::vector<Param> with_path_params(const std::vector<Param>& own);
-
-[[nodiscard]] Param choice_param(std::string name, std::string default_value, std::vector<std::string> choices,
-                                 std::string doc);
 
 }  // namespace lightloom::passes

@@ -1,5 +1,6 @@
 #include "passes/temporal_accumulate.hpp"
 
+#include "passes/param_rows.hpp"
 #include "passes/port_rows.hpp"
 
 namespace lightloom::passes {
@@ -15,11 +16,11 @@ PassType make_temporal_accumulate() {
   type.doc =
       "Weighted mean of the traced frames of the recent past. Each surface point is followed to where its object and "
       "the camera were in every earlier frame; frames in which it was hidden are left out; the age weight follows a "
-      "Hermite curve that is flat for a "
-      "Lambertian surface and keeps only the current frame for a mirror (paper, section 2.3).";
-  Port radiance = image_output_like("radiance", Format::rgba32_sfloat, "radiance",
-                                    "rgb: accumulated radiance; a: sum of the weights (1 to `frames`), 0 where there "
-                                    "is nothing to accumulate");
+      "Hermite curve that is flat for a Lambertian surface and keeps only the current frame for a mirror (paper, "
+      "section 2.3).";
+  Port radiance = image_output_like(
+      "radiance", Format::rgba32_sfloat, "radiance",
+      "rgb: accumulated radiance; a: sum of the weights (1 to `frames`), 0 where there is nothing to accumulate");
   radiance.bypass = Bypass{"radiance", {}};
   Port variance = image_output_like(
       "variance", Format::r32_sfloat, "radiance",
@@ -44,37 +45,18 @@ PassType make_temporal_accumulate() {
       variance,
   };
   type.params = {
-      {"lobe",
-       ParamType::choice,
-       std::string("both"),
-       {},
-       {},
-       {"both", "diffuse", "specular"},
-       "",
-       "what the radiance holds, which decides how long it may be kept: `diffuse` light weighs all frames alike, "
-       "`specular` light weighs them by Ward's alpha, and `both` by what the surface reflects more"},
-      {"frames",
-       ParamType::integer,
-       int64_t{10},
-       1,
-       16,
-       {},
-       "frames",
-       "frames that contribute, the current one included; the trails' ranges limit it as well"},
-      {"position_tolerance",
-       ParamType::real,
-       2.0,
-       0,
-       100,
-       {},
-       "pixels",
-       "largest distance between a point and what an earlier frame saw in its place, in footprints of a pixel there"},
-      {"normal_threshold", ParamType::real, 0.9, -1, 1, {}, "", "smallest cosine between the two normals"},
+      choice_param("lobe", "both", {"both", "diffuse", "specular"},
+                   "what the radiance holds, which decides how long it may be kept: `diffuse` light weighs all frames "
+                   "alike, `specular` light weighs them by Ward's alpha, and `both` by what the surface reflects more"),
+      integer_param("frames", 10, 1, 16, "frames",
+                    "frames that contribute, the current one included; the trails' ranges limit it as well"),
+      real_param("position_tolerance", 2.0, 0, 100, "pixels",
+                 "largest distance between a point and what an earlier frame saw in its place, in footprints of a "
+                 "pixel there"),
+      real_param("normal_threshold", 0.9, -1, 1, "", "smallest cosine between the two normals"),
   };
   type.reads = FrameState::camera | FrameState::dynamic_geometry;
-  type.record = [](PassContext& context) {
-    context.dispatch({"temporal_accumulate.comp", context.output_extent("radiance"), {}});
-  };
+  type.record = one_dispatch("temporal_accumulate.comp", "radiance");
   return type;
 }
 

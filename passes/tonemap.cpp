@@ -1,5 +1,6 @@
 #include "passes/tonemap.hpp"
 
+#include "passes/param_rows.hpp"
 #include "passes/port_rows.hpp"
 
 namespace lightloom::passes {
@@ -13,17 +14,11 @@ PassType make_tonemap() {
   type.ports = {image_input("radiance", Format::rgba32_sfloat, "linear radiance"),
                 image_output_like("image", Format::rgba8_unorm, "radiance", "sRGB-encoded colour; a: 1")};
   type.params = {
-      {"exposure", ParamType::real, 0.0, -32, 32, {}, "EV", "radiance is multiplied by 2 to this power"},
-      {"curve",
-       ParamType::choice,
-       std::string("filmic"),
-       {},
-       {},
-       {"filmic", "reinhard", "linear"},
-       "",
-       "how radiance above 1 is compressed; linear clips it"},
+      real_param("exposure", 0.0, -32, 32, "EV", "radiance is multiplied by 2 to this power"),
+      choice_param("curve", "filmic", {"filmic", "reinhard", "linear"},
+                   "how radiance above 1 is compressed; linear clips it"),
   };
-  type.record = [](PassContext& context) { context.dispatch({"tonemap.comp", context.output_extent("image"), {}}); };
+  type.record = one_dispatch("tonemap.comp", "image");
   return type;
 }
 

@@ -1,5 +1,6 @@
 #include "passes/upsample.hpp"
 
+#include "passes/param_rows.hpp"
 #include "passes/port_rows.hpp"
 
 namespace lightloom::passes {
@@ -12,8 +13,7 @@ PassType make_upsample() {
       "traced pixels around it are searched from the inside out for the one whose position and normal are most alike. "
       "`bilateral`: the four traced pixels around it are blended, weighted by how near they are on the screen and how "
       "alike in position and normal; where none of them will do, the search decides. Only pixels of the same object "
-      "are "
-      "taken, as long as the search meets any.";
+      "are taken, as long as the search meets any.";
   Port radiance = image_output_like("radiance", Format::rgba32_sfloat, "surface",
                                     "rgb: radiance; a: alpha of the traced pixels; 0 for the background");
   radiance.bypass = Bypass{"radiance", {}};  // fits where the trace has the size of the view
@@ -31,23 +31,9 @@ PassType make_upsample() {
                 radiance,
                 specular};
   type.params = {
-      {"filter",
-       ParamType::choice,
-       std::string("bilateral"),
-       {},
-       {},
-       {"bilateral", "nearest"},
-       "",
-       "how the traced pixels become one"},
-      {"rings", ParamType::integer, int64_t{3}, 0, 16, {}, "pixels", "how far the search goes, in traced pixels"},
-      {"threshold",
-       ParamType::real,
-       0.5,
-       0,
-       1,
-       {},
-       "",
-       "similarity at which a candidate is good enough to end the search"},
+      choice_param("filter", "bilateral", {"bilateral", "nearest"}, "how the traced pixels become one"),
+      integer_param("rings", 3, 0, 16, "pixels", "how far the search goes, in traced pixels"),
+      real_param("threshold", 0.5, 0, 1, "", "similarity at which a candidate is good enough to end the search"),
   };
   type.reads = FrameState::camera;
   type.record = [](PassContext& context) {

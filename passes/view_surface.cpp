@@ -1,6 +1,7 @@
 #include "passes/view_surface.hpp"
 
 #include "framework/base/error.hpp"
+#include "passes/param_rows.hpp"
 #include "passes/port_rows.hpp"
 
 namespace lightloom::passes {
@@ -24,18 +25,13 @@ PassType make_view_surface() {
   type.ports = {surface_input("surface", "what to show"), motion,
                 image_output_like("image", Format::rgba8_unorm, "surface", "sRGB-encoded colour; a: 1")};
   type.params = {
-      {"show",
-       ParamType::choice,
-       std::string("albedo"),
-       {},
-       {},
-       {"albedo", "normal", "geometric_normal", "tangent", "material", "emission", "object", "material_id", "position",
-        "depth", "motion"},
-       "",
-       "`albedo`: base colour; `normal`, `geometric_normal`, `tangent`: direction / 2 + 1/2; `material`: square roots "
-       "of the Ward alphas, 4 F0; `emission`: L / (1 + L); `object`, `material_id`: a colour for each; `position`: "
-       "within the bounds of the scene; `depth`: D / (D + view depth), D an eighth of the scene's diagonal; `motion`: "
-       "m / (|m| + 8 pixels) / 2 + 1/2, x red, y green"},
+      choice_param("show", "albedo",
+                   {"albedo", "normal", "geometric_normal", "tangent", "material", "emission", "object", "material_id",
+                    "position", "depth", "motion"},
+                   "`albedo`: base colour; `normal`, `geometric_normal`, `tangent`: direction / 2 + 1/2; `material`: "
+                   "square roots of the Ward alphas, 4 F0; `emission`: L / (1 + L); `object`, `material_id`: a colour "
+                   "for each; `position`: within the bounds of the scene; `depth`: D / (D + view depth), D an eighth "
+                   "of the scene's diagonal; `motion`: m / (|m| + 8 pixels) / 2 + 1/2, x red, y green"),
   };
   type.reads = FrameState::none;
   type.record = record;

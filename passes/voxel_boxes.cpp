@@ -2,19 +2,14 @@
 
 #include <utility>
 
+#include "passes/param_rows.hpp"
+
 namespace lightloom::passes {
 
 Param update_param() {
-  return {
-      "update",
-      ParamType::choice,
-      std::string("moved"),
-      {},
-      {},
-      {"moved", "all"},
-      "",
-      "what a frame rewrites: the voxels around what moved, or all; the result is the same as long as voxels change "
-      "only where the scene's triangles do"};
+  return choice_param("update", "moved", {"moved", "all"},
+                      "what a frame rewrites: the voxels around what moved, or all; the result is the same as long as "
+                      "voxels change only where the scene's triangles do");
 }
 
 std::vector<VoxelBox> boxes_to_update(const PassContext& context, const Extent3& grid, bool kept, int32_t margin) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/param_rows.hpp"
 #include "passes/port_rows.hpp"
 #include "passes/voxel_boxes.hpp"
 
@@ -121,38 +122,19 @@ PassType make_voxelize() {
       "`coverage` says: with `supercover` all whose closed box it touches (triangle-box test of Schwarz and Seidel "
       "2010); with `raster`, the paper's way, the hardware draws it along its dominant axis and it takes one voxel for "
       "each column whose centre line meets it, so thin and slanted things have holes. The triangle that `priority` "
-      "says "
-      "owns a voxel, by one atomic maximum, and all attributes come from its point nearest to the voxel's "
-      "centre, so a voxel is consistent and every run gives the same bits. Normals are those of the front face. A "
-      "triangle without area takes nothing.";
+      "says owns a voxel, by one atomic maximum, and all attributes come from its point nearest to the voxel's centre, "
+      "so a voxel is consistent and every run gives the same bits. Normals are those of the front face. A triangle "
+      "without area takes nothing.";
   type.ports = {voxels_output(), owner_scratch()};
   type.params = {
-      {"geometry", ParamType::choice, std::string("all"), {}, {}, {"static", "dynamic", "all"}, "", "which triangles"},
-      {"coverage",
-       ParamType::choice,
-       std::string("supercover"),
-       {},
-       {},
-       {"raster", "supercover"},
-       "",
-       "which voxels a triangle takes"},
-      {"resolution",
-       ParamType::integer,
-       int64_t{128},
-       8,
-       512,
-       {},
-       "voxels",
-       "voxels along the longest side of the scene, one voxel of padding at each end included"},
-      {"priority",
-       ParamType::choice,
-       std::string("draw_order"),
-       {},
-       {},
-       {"draw_order", "emissive"},
-       "",
-       "which of its triangles owns a voxel: the last in draw order (the paper's), or the last of those whose material "
-       "emits where there is one, so that a lamp less than a voxel below a ceiling is not lost"},
+      choice_param("geometry", "all", {"static", "dynamic", "all"}, "which triangles"),
+      choice_param("coverage", "supercover", {"raster", "supercover"}, "which voxels a triangle takes"),
+      integer_param("resolution", 128, 8, 512, "voxels",
+                    "voxels along the longest side of the scene, one voxel of padding at each end included"),
+      choice_param(
+          "priority", "draw_order", {"draw_order", "emissive"},
+          "which of its triangles owns a voxel: the last in draw order (the paper's), or the last of those whose "
+          "material emits where there is one, so that a lamp less than a voxel below a ceiling is not lost"),
       update_param(),
   };
   type.reads = FrameState::static_geometry | FrameState::dynamic_geometry | FrameState::materials;
