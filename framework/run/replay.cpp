@@ -168,7 +168,7 @@ std::optional<Cut> cut_out(const Replay& replay, const std::string& text, const 
   link.swaps.insert(link.swaps.end(), request.swaps.begin(), request.swaps.end());
   link.sets.insert(link.sets.end(), request.sets.begin(), request.sets.end());
   const fs::path& file = request.graph.empty() ? replay.run.graph : request.graph;
-  const std::optional<Graph> whole = link_text(text, file, registry, link, &replay.scene, diagnostics);
+  const std::optional<Graph> whole = link_text(text, file, registry, link, &replay.scene, diagnostics, request.shaders);
   if (!whole) return std::nullopt;
   Cut part = cut(*whole, choose_passes(*whole, request.passes));
   part.graph = for_one_frame(std::move(part.graph));
