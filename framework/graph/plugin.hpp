@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "framework/graph/pass_type.hpp"
 
@@ -43,13 +44,17 @@ struct Plugin {
   void (*add_passes)(PassRegistry&) = nullptr;
 };
 
+template <class... Types>
+void add_pass_types(PassRegistry& registry, Types... types) {
+  (registry.add(std::move(types)), ...);
+}
+
 /// Exports a plug-in of this name and version with these pass types.
 // A macro, since what it writes must be compiled as a part of the plug-in.
 // NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
-#define LIGHTLOOM_PLUGIN(name, version, ...)                                                                   \
-  extern "C" __attribute__((visibility("default"))) const lightloom::Plugin lightloom_plugin{                  \
-      lightloom::plugin_interface(), LIGHTLOOM_VERSION, name, version, [](lightloom::PassRegistry& registry) { \
-        for (const lightloom::PassType& type : {__VA_ARGS__}) registry.add(type);                              \
-      }};
+#define LIGHTLOOM_PLUGIN(name, version, ...)                                                  \
+  extern "C" __attribute__((visibility("default"))) const lightloom::Plugin lightloom_plugin{ \
+      lightloom::plugin_interface(), LIGHTLOOM_VERSION, name, version,                        \
+      [](lightloom::PassRegistry& registry) { lightloom::add_pass_types(registry, __VA_ARGS__); }};
 
 }  // namespace lightloom
