@@ -43,11 +43,11 @@ TEST(ImageUse, LoadsStoresAndAtomicsAreToldApart) {
 }
 
 TEST(ImageUse, IsFollowedThroughFunctions) {
-  const Reflection reflection = reflect_text(
-      "layout(r32f) uniform image2D one;\nlayout(r32f) uniform image2D other;\nuniform texture2D source;\n",
-      "vec4 fetch(texture2D from, int x) { return x > 5 ? texelFetch(from, ivec2(x), 0) : vec4(0.0); }\n"
-      "void put(layout(r32f) image2D into, vec4 value) { imageStore(into, ivec2(0), value); }\n",
-      "put(one, fetch(source, int(gl_GlobalInvocationID.x)) + imageLoad(other, ivec2(1)));");
+  const Reflection reflection =
+      reflect_text("uniform writeonly image2D one;\nlayout(r32f) uniform image2D other;\nuniform texture2D source;\n",
+                   "vec4 fetch(texture2D from, int x) { return x > 5 ? texelFetch(from, ivec2(x), 0) : vec4(0.0); }\n"
+                   "void put(writeonly image2D into, vec4 value) { imageStore(into, ivec2(0), value); }\n",
+                   "put(one, fetch(source, int(gl_GlobalInvocationID.x)) + imageLoad(other, ivec2(1)));");
   EXPECT_TRUE(reflection.find_binding("one")->writes);
   EXPECT_FALSE(reflection.find_binding("one")->reads);
   EXPECT_TRUE(reflection.find_binding("other")->reads);
