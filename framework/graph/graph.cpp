@@ -1,6 +1,6 @@
 #include "framework/graph/graph.hpp"
 
-#include <algorithm>
+#include "framework/graph/schedule.hpp"
 
 namespace lightloom {
 
@@ -12,28 +12,20 @@ uint64_t byte_size(const Value& value) {
   return byte_size(value.desc) * ring_layers(value);
 }
 
-bool is_read(const Graph& graph, ValueId value) {
-  const auto reads = [value](const auto& use) { return use.value == value; };
-  return std::any_of(graph.outputs.begin(), graph.outputs.end(), reads) ||
-         std::find(graph.captures.begin(), graph.captures.end(), value) != graph.captures.end() ||
-         std::any_of(graph.passes.begin(), graph.passes.end(),
-                     [&](const GraphPass& pass) { return std::any_of(pass.inputs.begin(), pass.inputs.end(), reads); });
-}
-
-bool looks_back(const Graph& graph, const GraphPass& pass) {
-  std::vector<const GraphPass*> found = {&pass};  // each pass once, however many ways lead to it
-  for (std::size_t next = 0; next < found.size(); ++next) {
-    for (const Use& input : found[next]->inputs) {
-      if (input.last_age > 0) return true;
-      const auto writes = [&](const Use& output) { return output.value == input.value; };
-      const auto producer = std::find_if(graph.passes.begin(), graph.passes.end(), [&](const GraphPass& candidate) {
-        return std::any_of(candidate.outputs.begin(), candidate.outputs.end(), writes);
-      });
-      if (producer == graph.passes.end() || std::find(found.begin(), found.end(), &*producer) != found.end()) continue;
-      found.push_back(&*producer);
+void mark_reads(Graph& graph) {
+  for (Value& value : graph.values) value.read = false;
+  for (const GraphOutput& output : graph.outputs) graph.values[output.value].read = true;
+  for (const ValueId value : graph.captures) graph.values[value].read = true;
+  std::vector<bool> of_earlier_frames(graph.values.size());  // by value
+  for (const uint32_t index : schedule(graph).order) {
+    GraphPass& pass = graph.passes[index];
+    pass.looks_back = false;
+    for (const Use& input : pass.inputs) {
+      graph.values[input.value].read = true;
+      pass.looks_back = pass.looks_back || input.last_age > 0 || of_earlier_frames[input.value];
     }
+    for (const Use& output : pass.outputs) of_earlier_frames[output.value] = pass.looks_back;
   }
-  return false;
 }
 
 }  // namespace lightloom

@@ -27,6 +27,7 @@ struct Value {
   uint32_t history = 0;                ///< largest age that is read; the image is a ring of history + 1 layers
   bool scratch = false;                ///< used by its pass alone, within a frame
   bool persistent = false;             ///< its pass rewrites a part of it and keeps the rest of the frame before
+  bool read = false;                   ///< by a pass, an output of the graph or a capture (mark_reads)
   bool operator==(const Value&) const = default;
 };
 
@@ -58,6 +59,7 @@ struct GraphPass {
   std::vector<Use> scratch;
   std::vector<std::string> unconnected;  ///< optional inputs that have no source
   std::string once;                      ///< why it runs in the first frame alone; empty: it runs in every frame
+  bool looks_back = false;  ///< it, or one that it depends on within the frame, reads an earlier frame (mark_reads)
 };
 
 /// `age` is 0 unless a bypassed pass stood between, whose source is a history edge.
@@ -71,12 +73,6 @@ struct PassRemark {
   std::string pass;
   std::string reason;
 };
-
-struct Graph;
-/// Does a pass, an output of the graph or a capture read the value?
-[[nodiscard]] bool is_read(const Graph& graph, ValueId value);
-/// Does the pass, or one that it depends on within the frame, read a value of an earlier frame?
-[[nodiscard]] bool looks_back(const Graph& graph, const GraphPass& pass);
 
 /// A linked and typed graph: plain data, swaps and bypasses applied, what nothing needs left out.
 struct Graph {
@@ -94,5 +90,9 @@ struct Graph {
   std::vector<std::shared_ptr<const PassType>> own_types;  ///< of passes of type `compute`
   bool general = false;  ///< LinkOptions::general: shaders are to have every scene feature
 };
+
+/// Fills Value::read and GraphPass::looks_back. `link` does; whoever changes passes, outputs or captures must do it
+/// again.
+void mark_reads(Graph& graph);
 
 }  // namespace lightloom

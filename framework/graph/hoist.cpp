@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "framework/base/text.hpp"
+#include "framework/graph/schedule.hpp"
 
 namespace lightloom {
 namespace {
@@ -26,15 +27,13 @@ class Hoister {
   }
 
   void run() {
-    for (bool found = true; found;) {
-      found = false;
-      for (GraphPass& pass : graph_.passes) {
-        if (!pass.once.empty() || !runs_once(pass)) continue;
-        pass.once = reason(pass);
-        mark(pass.outputs);
-        mark(pass.scratch);
-        found = true;
-      }
+    // Only this frame's values can be fixed, so that producers before readers is all the order that is needed.
+    for (const uint32_t index : schedule(graph_).order) {
+      GraphPass& pass = graph_.passes[index];
+      if (!runs_once(pass)) continue;
+      pass.once = reason(pass);
+      mark(pass.outputs);
+      mark(pass.scratch);
     }
   }
 

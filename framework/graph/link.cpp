@@ -8,21 +8,18 @@
 namespace lightloom {
 namespace linking {
 
-bool Report::said(std::string_view code, const SourceLocation& where, const std::string& message) const {
-  const std::vector<Diagnostic>& all = diagnostics_->all();
-  return std::any_of(all.begin(), all.end(), [&](const Diagnostic& diagnostic) {
-    return diagnostic.code == code && diagnostic.where == where && diagnostic.message == message;
-  });
+bool Report::is_new(std::string_view code, const SourceLocation& where, const std::string& message) {
+  return said_.emplace(where, code, message).second;
 }
 
 void Report::error(std::string_view code, const SourceLocation& where, const std::string& message,
                    const std::string& hint) {
-  if (!said(code, where, message)) diagnostics_->error(code, where, message, hint);
+  if (is_new(code, where, message)) diagnostics_.error(code, where, message, hint);
 }
 
 void Report::warning(std::string_view code, const SourceLocation& where, const std::string& message,
                      const std::string& hint) {
-  if (!said(code, where, message)) diagnostics_->warning(code, where, message, hint);
+  if (is_new(code, where, message)) diagnostics_.warning(code, where, message, hint);
 }
 
 std::vector<std::string> Nodes::names() const {
@@ -53,7 +50,7 @@ std::optional<Graph> link(const GraphSpec& spec, const PassRegistry& registry, c
   const linking::Wiring wiring = edges.resolve(spec);
   const linking::Needs needs = linking::find_needs(nodes, wiring, options, report, notes);
   linking::check_bypasses(nodes, wiring, needs, report);
-  linking::ShapeResolver shapes(nodes, edges, input, report);
+  linking::ShapeResolver shapes(nodes, wiring, edges, input, report);
   // Sizes follow the edges, so they mean something only where these lead somewhere.
   if (!linking::check_cycles(nodes, wiring, report)) return std::nullopt;
   for (uint32_t i = 0; i < nodes.list.size(); ++i)

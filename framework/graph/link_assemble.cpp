@@ -26,19 +26,16 @@ class Assembler {
     for (const ResolvedOutput& output : wiring_.outputs)
       if (output.state == Connection::connected)
         graph_.outputs.push_back({output.spec->name, value_of(output.source), output.source.first_age});
-    for (const ImageRef& image : needs_.captures) graph_.captures.push_back(id_of(image));
+    for (const ImageRef& image : needs_.captures) graph_.captures.push_back(ids_.at(image));
     std::sort(graph_.captures.begin(), graph_.captures.end());
     mark_persistent();
+    mark_reads(graph_);
     add_remarks();
     if (!complete_) return std::nullopt;
     return std::move(graph_);
   }
 
  private:
-  ValueId id_of(const ImageRef& image) const {
-    return static_cast<ValueId>(std::find(images_.begin(), images_.end(), image) - images_.begin());
-  }
-
   ValueId add_value(const ImageRef& image, const std::optional<ClearColor>& constant) {
     const PortPart& part = image.port->parts[image.part];
     const std::optional<Extent3> extent = shapes_.extent_of(image);
@@ -46,8 +43,10 @@ class Assembler {
     graph_.values.push_back({nodes_.list[image.node].spec->name, image.port->name, part.name,
                              ImageDesc{part.format, image.port->dimension, extent.value_or(Extent3{})}, constant, 0,
                              image.port->direction == Direction::scratch, false});
+    const auto id = static_cast<ValueId>(images_.size());
     images_.push_back(image);
-    return static_cast<ValueId>(images_.size() - 1);
+    ids_.emplace(image, id);
+    return id;
   }
 
   void add_values(uint32_t node) {
@@ -59,8 +58,9 @@ class Assembler {
 
   /// The value's id; its ring grows to the oldest age that is read. A constant is the same at every age.
   ValueId value_of(const Source& source) {
-    ValueId id = id_of(source.image);
-    if (id == images_.size()) id = add_value(source.image, source.image.port->bypass->constant);
+    const auto known = ids_.find(source.image);
+    const ValueId id =
+        known != ids_.end() ? known->second : add_value(source.image, source.image.port->bypass->constant);
     Value& value = graph_.values[id];
     if (!source.constant) value.history = std::max(value.history, source.last_age);
     return id;
@@ -87,21 +87,19 @@ class Assembler {
       for (uint32_t part = 0; part < port.parts.size(); ++part)
         (port.direction == Direction::out ? pass.outputs : pass.scratch)
             .push_back({port.name, port.parts[part].name, shader_name(port, port.parts[part]), port.access,
-                        id_of({index, &port, part}), 0, 0, false});
+                        ids_.at({index, &port, part}), 0, 0, false});
     }
     graph_.passes.push_back(std::move(pass));
   }
 
   /// A ring's next layer holds what is older than the frame before, so nothing of the port is kept if any part has one.
   void mark_persistent() {
-    const auto same_port = [](const ImageRef& a, const ImageRef& b) { return a.node == b.node && a.port == b.port; };
-    for (std::size_t id = 0; id < images_.size(); ++id) {
-      if (!images_[id].port->persistent || graph_.values[id].constant) continue;
-      bool ring = false;
-      for (std::size_t other = 0; other < images_.size(); ++other)
-        ring = ring || (same_port(images_[id], images_[other]) && graph_.values[other].history > 0);
-      graph_.values[id].persistent = !ring;
-    }
+    ByImage<bool> has_ring;  // by the first part of a port
+    for (std::size_t id = 0; id < images_.size(); ++id)
+      if (graph_.values[id].history > 0) has_ring[{images_[id].node, images_[id].port, 0}] = true;
+    for (std::size_t id = 0; id < images_.size(); ++id)
+      graph_.values[id].persistent = images_[id].port->persistent && !graph_.values[id].constant &&
+                                     !has_ring.contains({images_[id].node, images_[id].port, 0});
   }
 
   void add_remarks() {
@@ -121,6 +119,7 @@ class Assembler {
   ShapeResolver& shapes_;
   Graph graph_;
   std::vector<ImageRef> images_;  ///< by value id
+  ByImage<ValueId> ids_;
   bool complete_ = true;
 };
 

@@ -6,10 +6,10 @@
 namespace lightloom::linking {
 namespace {
 
-/// Passes that run, and which reads this frame's values of which.
+/// Which node reads this frame's values of which: for each node those behind it and those before it, one entry a use.
 struct Flow {
   std::vector<std::vector<uint32_t>> consumers;
-  std::vector<uint32_t> source_count;
+  std::vector<std::vector<uint32_t>> sources;
 };
 
 template <class Visit>
@@ -22,28 +22,32 @@ void for_each_source(const std::vector<ResolvedInput>& inputs, Visit visit) {
 Flow build_flow(const Wiring& wiring) {
   Flow flow;
   flow.consumers.resize(wiring.inputs.size());
-  flow.source_count.resize(wiring.inputs.size());
+  flow.sources.resize(wiring.inputs.size());
   for (uint32_t i = 0; i < wiring.inputs.size(); ++i) {
     for_each_source(wiring.inputs[i], [&](uint32_t source, const ResolvedInput& /*input*/) {
       flow.consumers[source].push_back(i);
-      ++flow.source_count[i];
+      flow.sources[i].push_back(source);
     });
   }
   return flow;
 }
 
-/// Nodes on a cycle or behind one.
-std::vector<bool> not_orderable(Flow flow) {
-  std::vector<bool> left(flow.source_count.size(), true);
-  std::deque<uint32_t> ready;
-  for (uint32_t i = 0; i < flow.source_count.size(); ++i)
-    if (flow.source_count[i] == 0) ready.push_back(i);
-  for (; !ready.empty(); ready.pop_front()) {
-    left[ready.front()] = false;
-    for (const uint32_t consumer : flow.consumers[ready.front()])
-      if (--flow.source_count[consumer] == 0) ready.push_back(consumer);
+/// Takes away, one after another, all nodes that have nothing left in `before`.
+void take_ends_away(const std::vector<std::vector<uint32_t>>& before, const std::vector<std::vector<uint32_t>>& behind,
+                    std::vector<bool>& left) {
+  std::vector<std::size_t> waits_for(left.size());
+  std::vector<uint32_t> ends;
+  for (uint32_t i = 0; i < left.size(); ++i) {
+    for (const uint32_t node : before[i]) waits_for[i] += left[node] ? 1 : 0;
+    if (left[i] && waits_for[i] == 0) ends.push_back(i);
   }
-  return left;
+  while (!ends.empty()) {
+    const uint32_t end = ends.back();
+    ends.pop_back();
+    left[end] = false;
+    for (const uint32_t node : behind[end])
+      if (left[node] && --waits_for[node] == 0) ends.push_back(node);
+  }
 }
 
 /// A shortest way from `start` back to it, both ends included; empty if there is none.
@@ -84,7 +88,10 @@ void report_cycle(const Nodes& nodes, const Wiring& wiring, const std::vector<ui
 
 bool check_cycles(const Nodes& nodes, const Wiring& wiring, Report& report) {
   const Flow flow = build_flow(wiring);
-  const std::vector<bool> left = not_orderable(flow);
+  std::vector<bool> left(nodes.list.size(), true);
+  take_ends_away(flow.sources, flow.consumers, left);
+  if (std::find(left.begin(), left.end(), true) == left.end()) return true;
+  take_ends_away(flow.consumers, flow.sources, left);  // what only follows from a cycle has none to show
   std::vector<bool> reported(left.size(), false);
   for (uint32_t i = 0; i < left.size(); ++i) {
     if (!left[i] || reported[i]) continue;
@@ -93,7 +100,7 @@ bool check_cycles(const Nodes& nodes, const Wiring& wiring, Report& report) {
     for (const uint32_t node : cycle) reported[node] = true;
     report_cycle(nodes, wiring, cycle, report);
   }
-  return std::find(left.begin(), left.end(), true) == left.end();
+  return false;
 }
 
 }  // namespace lightloom::linking

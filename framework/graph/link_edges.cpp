@@ -110,12 +110,11 @@ ResolvedInput EdgeResolver::resolve_input(uint32_t index, const Port& port) {
 
 std::optional<EdgeResolver::Target> EdgeResolver::find_target(const EdgeSpec& edge, bool consumer_enabled) {
   if (edge.pass.empty()) return std::nullopt;
-  for (uint32_t i = 0; i < nodes_.list.size(); ++i) {
-    const Node& node = nodes_.list[i];
-    if (node.spec->name != edge.pass) continue;
+  if (const auto found = nodes_.by_name.find(edge.pass); found != nodes_.by_name.end()) {
+    const Node& node = nodes_.list[found->second];
     // What a swap took from a disabled pass does not matter.
     if (node.type == nullptr || (!consumer_enabled && node.swapped_by)) return std::nullopt;
-    return find_port(edge, i);
+    return find_port(edge, found->second);
   }
   report_.error("unknown-pass", edge.where,
                 "edge " + in_quotes(edge.text) + ": there is no pass " + in_quotes(edge.pass),
@@ -200,35 +199,60 @@ bool EdgeResolver::check_bundle(const std::string& consumer, const Port& input, 
   return true;
 }
 
-EdgeResolver::Found EdgeResolver::follow(ImageRef image, const EdgeSpec& edge) {
-  Found found{Connection::connected, {image, false, edge.first_age, edge.last_age}, {}};
-  std::vector<ImageRef> visited;
-  while (!nodes_.list[found.source.image.node].enabled()) {
-    image = found.source.image;
-    if (std::find(visited.begin(), visited.end(), image) != visited.end()) {
-      report_.error("cycle", edge.where,
-                    "edge " + in_quotes(edge.text) + " leads through disabled passes back to '" +
-                        image_name(nodes_, image) + "' and never to a pass that runs");
-      return {};
-    }
-    visited.push_back(image);
-    if (!image.port->bypass) return {Connection::no_bypass, {}, image};
-    if (image.port->bypass->input.empty()) {
-      found.source.constant = true;
-      return found;
-    }
-    const Found next = through_bypass(image);
-    if (next.state != Connection::connected) return next;
-    found.source.image = next.source.image;
-    found.source.first_age += next.source.first_age;
-    found.source.last_age += next.source.first_age;
-    if (found.source.last_age <= kMaximumAge) continue;
+EdgeResolver::Found EdgeResolver::follow(const ImageRef& image, const EdgeSpec& edge) {
+  const Ending ending = ending_of(image);
+  if (ending.endless) {
+    report_.error("cycle", edge.where,
+                  "edge " + in_quotes(edge.text) + " leads through disabled passes back to '" +
+                      image_name(nodes_, ending.image) + "' and never to a pass that runs");
+    return {};
+  }
+  if (ending.state != Connection::connected) return {ending.state, {}, ending.image};
+  const uint32_t oldest = edge.last_age + ending.age;
+  if (oldest > kMaximumAge) {
     report_.error("out-of-range", edge.where,
-                  "edge " + in_quotes(edge.text) + " reaches " + std::to_string(found.source.last_age) +
+                  "edge " + in_quotes(edge.text) + " reaches " + std::to_string(oldest) +
                       " frames back through disabled passes; the limit is " + std::to_string(kMaximumAge));
     return {};
   }
-  return found;
+  return {Connection::connected, {ending.image, ending.constant, edge.first_age + ending.age, oldest}, {}};
+}
+
+EdgeResolver::Ending EdgeResolver::ending_of(const ImageRef& start) {
+  struct Step {
+    ImageRef image;
+    uint32_t age = 0;  ///< of the edge to the next
+  };
+  std::vector<Step> way;
+  Ending ending{Connection::connected, start};
+  while (!nodes_.list[ending.image.node].enabled()) {
+    const ImageRef image = ending.image;
+    // Who comes back to an image that is still under way goes round for ever.
+    const auto [known, is_new] = endings_.try_emplace(image, Ending{.image = image, .endless = true});
+    if (!is_new) {
+      ending = known->second;
+      break;
+    }
+    const Found next = image.port->bypass && !image.port->bypass->input.empty() ? through_bypass(image) : Found{};
+    way.push_back({image, next.source.first_age});
+    if (next.state == Connection::connected) {
+      ending.image = next.source.image;
+      continue;
+    }
+    const bool constant = image.port->bypass && image.port->bypass->input.empty();
+    if (constant)
+      ending.constant = true;
+    else if (!image.port->bypass)
+      ending = {Connection::no_bypass, image};
+    else
+      ending = {next.state, next.culprit};
+    break;
+  }
+  for (auto step = way.rbegin(); step != way.rend(); ++step) {
+    ending.age += step->age;
+    endings_[step->image] = ending;
+  }
+  return ending;
 }
 
 EdgeResolver::Found EdgeResolver::through_bypass(const ImageRef& image) {

@@ -21,8 +21,10 @@ Extent3 wanted_size(const SizeSpec& own, const std::optional<std::pair<uint32_t,
 
 }  // namespace
 
-ShapeResolver::ShapeResolver(const Nodes& nodes, EdgeResolver& edges, const Input& input, Report& report)
+ShapeResolver::ShapeResolver(const Nodes& nodes, const Wiring& wiring, EdgeResolver& edges, const Input& input,
+                             Report& report)
     : nodes_(nodes),
+      wiring_(wiring),
       edges_(edges),
       input_(input),
       report_(report),
@@ -30,21 +32,24 @@ ShapeResolver::ShapeResolver(const Nodes& nodes, EdgeResolver& edges, const Inpu
       trace_(wanted_size(input.spec.trace, input.options.trace, "--trace-size", report)) {}
 
 std::optional<Extent3> ShapeResolver::extent_of(const ImageRef& image) {
-  const auto same = [&](const Known& known) { return known.port == image.port && known.node == image.node; };
-  if (const auto found = std::find_if(known_.begin(), known_.end(), same); found != known_.end()) {
-    if (found->in_progress)
-      report_.error(
-          "unknown-shape", nodes_.list[image.node].spec->where,
-          "the size of '" + nodes_.list[image.node].spec->name + "." + image.port->name + "' depends on itself",
-          "give a pass of this loop an input of known size");
-    return found->extent;
+  std::vector<ImageRef> alike;  // each has the size of the next, so that all have that of the end
+  Rule rule{std::nullopt, image};
+  while (rule.like) {
+    const ImageRef port{rule.like->node, rule.like->port, 0};
+    const auto [known, is_new] = known_.try_emplace(port);
+    if (is_new) {
+      alike.push_back(port);
+      rule = rule_of(port.node, *port.port);
+      continue;
+    }
+    if (known->second.in_progress)
+      report_.error("unknown-shape", nodes_.list[port.node].spec->where,
+                    "the size of '" + nodes_.list[port.node].spec->name + "." + port.port->name + "' depends on itself",
+                    "give a pass of this loop an input of known size");
+    rule = {known->second.extent, std::nullopt};
   }
-  const std::size_t index = known_.size();
-  known_.push_back({image.port, image.node, true, {}});
-  const std::optional<Extent3> extent = by_rule(image.node, *image.port);
-  known_[index].in_progress = false;
-  known_[index].extent = extent;
-  return extent;
+  for (const ImageRef& port : alike) known_[port] = {false, rule.extent};
+  return rule.extent;
 }
 
 Extent3 ShapeResolver::grid(const Node& node) const {
@@ -54,33 +59,43 @@ Extent3 ShapeResolver::grid(const Node& node) const {
   return {edge, edge, edge};
 }
 
-std::optional<Extent3> ShapeResolver::by_rule(uint32_t index, const Port& port) {
-  const Node& node = nodes_.list[index];
+ShapeResolver::Rule ShapeResolver::rule_of(uint32_t index, const Port& port) {
   switch (port.extent) {
     case ExtentRule::view:
-      return view_;
+      return {view_, std::nullopt};
     case ExtentRule::trace:
-      return trace_;
+      return {trace_, std::nullopt};
     case ExtentRule::grid:
-      return grid(node);
+      return {grid(nodes_.list[index]), std::nullopt};
     case ExtentRule::any:
-      return std::nullopt;
+      return {};
     case ExtentRule::fixed:
-      return port.fixed_extent;
+      return {port.fixed_extent, std::nullopt};
     case ExtentRule::like:
       break;
   }
+  return like_input(index, port);
+}
+
+ResolvedInput ShapeResolver::input_of(uint32_t index, const Port& port) {
+  for (const ResolvedInput& input : wiring_.inputs[index])
+    if (input.port == &port) return input;
+  return edges_.resolve_input(index, port);  // of a disabled pass, which nobody has wired
+}
+
+ShapeResolver::Rule ShapeResolver::like_input(uint32_t index, const Port& port) {
+  const Node& node = nodes_.list[index];
   const Port& like = *node.type->find_port(port.like, Direction::in);
-  const ResolvedInput model = edges_.resolve_input(index, like);
-  if (model.state == Connection::connected) return extent_of(model.sources.front().image);
-  if (like.optional && model.state != Connection::broken) return view_;
+  const ResolvedInput model = input_of(index, like);
+  if (model.state == Connection::connected) return {std::nullopt, model.sources.front().image};
+  if (like.optional && model.state != Connection::broken) return {view_, std::nullopt};
   // An enabled pass's missing or broken input has been reported as such.
   if (!node.enabled() && model.state != Connection::broken)
     report_.error("unknown-shape", node.spec->where,
                   "disabled pass '" + node.spec->name + "' cannot be replaced by a constant: the size of '" +
                       port.name + "' is that of its input '" + port.like + "', which has no source",
                   "connect '" + port.like + "'");
-  return std::nullopt;
+  return {};
 }
 
 void ShapeResolver::check_inputs(uint32_t index, const std::vector<ResolvedInput>& inputs) {
@@ -88,7 +103,8 @@ void ShapeResolver::check_inputs(uint32_t index, const std::vector<ResolvedInput
   for (const ResolvedInput& input : inputs) {
     if (input.state != Connection::connected || input.port->extent == ExtentRule::any) continue;
     const std::optional<Extent3> given = extent_of(input.sources.front().image);
-    const std::optional<Extent3> wanted = by_rule(index, *input.port);
+    const Rule rule = rule_of(index, *input.port);
+    const std::optional<Extent3> wanted = rule.like ? extent_of(*rule.like) : rule.extent;
     if (!given || !wanted || *given == *wanted) continue;
     std::string model;
     if (input.port->extent == ExtentRule::like) {

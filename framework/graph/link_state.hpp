@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -15,7 +19,7 @@ namespace lightloom::linking {
 /// Diagnostics that drop what was already said, so that checks may run again on a changed copy of the graph.
 class Report {
  public:
-  explicit Report(Diagnostics& diagnostics) : diagnostics_(&diagnostics) {}
+  explicit Report(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
   void error(std::string_view code, const SourceLocation& where, const std::string& message,
              const std::string& hint = {});
   void warning(std::string_view code, const SourceLocation& where, const std::string& message,
@@ -23,8 +27,9 @@ class Report {
   [[nodiscard]] bool has_errors() const { return diagnostics_->has_errors(); }
 
  private:
-  [[nodiscard]] bool said(std::string_view code, const SourceLocation& where, const std::string& message) const;
-  Diagnostics* diagnostics_;
+  [[nodiscard]] bool is_new(std::string_view code, const SourceLocation& where, const std::string& message);
+  Diagnostics& diagnostics_;
+  std::set<std::tuple<SourceLocation, std::string, std::string>> said_;  ///< places, codes, messages
 };
 
 /// A pass of the file as variants and options have left it.
@@ -45,6 +50,7 @@ struct Node {
 struct Nodes {
   std::vector<Node> list;
   std::vector<ScalarSpec> graph_params;
+  std::unordered_map<std::string_view, uint32_t> by_name;  ///< the file's names, which outlive the linking
   [[nodiscard]] std::vector<std::string> names() const;
 };
 
@@ -64,6 +70,16 @@ struct ImageRef {
   uint32_t part = 0;
   bool operator==(const ImageRef&) const = default;
 };
+
+struct ImageHash {
+  std::size_t operator()(const ImageRef& image) const {
+    return std::hash<const Port*>()(image.port) ^
+           (((std::size_t{image.node} << 8U) + image.part) * 0x9e3779b97f4a7c15U);
+  }
+};
+/// To be looked up, never to be gone through: the order in it means nothing.
+template <class T>
+using ByImage = std::unordered_map<ImageRef, T, ImageHash>;
 
 /// Where one part of an input comes from, after bypasses.
 struct Source {
@@ -137,6 +153,14 @@ class EdgeResolver {
     Source source;
     ImageRef culprit;
   };
+  /// What stands in the end for an output, through the bypasses of disabled passes.
+  struct Ending {
+    Connection state = Connection::broken;
+    ImageRef image;         ///< what stands there if connected; no_bypass: what is missing
+    bool constant = false;  ///< its cleared stand-in
+    uint32_t age = 0;       ///< of all edges on the way
+    bool endless = false;   ///< the way leads back to `image`
+  };
   [[nodiscard]] std::optional<Target> find_target(const EdgeSpec& edge, bool consumer_enabled);
   [[nodiscard]] std::optional<Target> find_port(const EdgeSpec& edge, uint32_t node);
   [[nodiscard]] bool check_kind(const std::string& consumer, const Port& input, const EdgeSpec& edge,
@@ -144,13 +168,15 @@ class EdgeResolver {
   [[nodiscard]] bool check_bundle(const std::string& consumer, const Port& input, const EdgeSpec& edge,
                                   const Target& target);
   /// Through the bypasses of disabled passes to what stands in the end.
-  [[nodiscard]] Found follow(ImageRef image, const EdgeSpec& edge);
+  [[nodiscard]] Found follow(const ImageRef& image, const EdgeSpec& edge);
+  [[nodiscard]] Ending ending_of(const ImageRef& start);
   /// From an output of a disabled pass to what feeds the input that replaces it.
   [[nodiscard]] Found through_bypass(const ImageRef& image);
   [[nodiscard]] ResolvedOutput resolve_output(const ConnectionSpec& output);
   void check_node(uint32_t node, const std::vector<ResolvedInput>& inputs);
   const Nodes& nodes_;
   Report& report_;
+  ByImage<Ending> endings_;  ///< of outputs of disabled passes
 };
 
 /// link_cycles.cpp: reports cycles over edges without '@'. True if there are none.
@@ -159,7 +185,7 @@ class EdgeResolver {
 /// link_shapes.cpp: extents by rule, and whether connected images fit.
 class ShapeResolver {
  public:
-  ShapeResolver(const Nodes& nodes, EdgeResolver& edges, const Input& input, Report& report);
+  ShapeResolver(const Nodes& nodes, const Wiring& wiring, EdgeResolver& edges, const Input& input, Report& report);
   /// Empty if it cannot be known; then that was reported.
   [[nodiscard]] std::optional<Extent3> extent_of(const ImageRef& image);
   void check_inputs(uint32_t node, const std::vector<ResolvedInput>& inputs);
@@ -168,20 +194,26 @@ class ShapeResolver {
 
  private:
   struct Known {
-    const Port* port = nullptr;
-    uint32_t node = kNoNode;
     bool in_progress = true;
     std::optional<Extent3> extent;
   };
-  [[nodiscard]] std::optional<Extent3> by_rule(uint32_t node, const Port& port);
+  /// What a port's rule says: an extent, or that it is like an image; neither if nobody can know.
+  struct Rule {
+    std::optional<Extent3> extent;
+    std::optional<ImageRef> like;
+  };
+  [[nodiscard]] Rule rule_of(uint32_t node, const Port& port);
+  [[nodiscard]] Rule like_input(uint32_t node, const Port& port);
+  [[nodiscard]] ResolvedInput input_of(uint32_t node, const Port& port);
   [[nodiscard]] Extent3 grid(const Node& node) const;
   const Nodes& nodes_;
+  const Wiring& wiring_;
   EdgeResolver& edges_;
   const Input& input_;
   Report& report_;
   Extent3 view_;
   Extent3 trace_;
-  std::vector<Known> known_;
+  ByImage<Known> known_;  ///< by the first part of a port
 };
 
 /// link_needs.cpp: which nodes run, and what is captured.

@@ -71,6 +71,8 @@ class Editor {
  private:
   std::vector<Node*> match(const std::string& glob, const SourceLocation& where) {
     std::vector<Node*> matches;
+    if (const auto named = nodes_.by_name.find(glob); named != nodes_.by_name.end())
+      return {&nodes_.list[named->second]};
     for (Node& node : nodes_.list)
       if (glob_match(glob, node.spec->name)) matches.push_back(&node);
     if (matches.empty())
@@ -215,6 +217,7 @@ Nodes nodes_of_file(const Input& input, Report& report) {
   Nodes nodes;
   nodes.graph_params = input.spec.params;
   for (const PassSpec& spec : input.spec.passes) {
+    nodes.by_name.emplace(spec.name, static_cast<uint32_t>(nodes.list.size()));
     Node& node = nodes.list.emplace_back();
     node.spec = &spec;
     node.params = spec.params;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -12,11 +13,8 @@ namespace {
 using Order = std::vector<uint32_t>;
 
 constexpr size_t kExactBlocks = 8;
-constexpr uint32_t kImprovements = 64;
-
-bool live_together(const Block& a, const Block& b) {
-  return a.first <= b.last && b.first <= a.last;
-}
+constexpr size_t kImprovements = 64;
+constexpr size_t kEffort = 20'000;  ///< blocks to be placed by all tries from one order, where that allows two tries
 
 uint64_t aligned(uint64_t offset, uint64_t alignment) {
   return (offset + alignment - 1) / alignment * alignment;
@@ -25,40 +23,65 @@ uint64_t aligned(uint64_t offset, uint64_t alignment) {
 /// Puts blocks one after another to the lowest offset that is free of those already there.
 class Stack {
  public:
-  explicit Stack(std::span<const Block> blocks) : blocks_(blocks), offsets_(blocks.size()) {}
+  explicit Stack(std::span<const Block> blocks) : blocks_(blocks), offsets_(blocks.size()) {
+    uint32_t end = 0;
+    for (const Block& block : blocks) end = std::max(end, block.last + 1);
+    begun_.resize(end);
+    running_.resize(end);
+  }
 
-  uint64_t put(uint32_t block) {
-    taken_.clear();
-    for (const uint32_t other : placed_)
-      if (live_together(blocks_[block], blocks_[other]))
-        taken_.emplace_back(offsets_[other], offsets_[other] + blocks_[other].size);
-    std::sort(taken_.begin(), taken_.end());
+  uint64_t put(uint32_t index) {
+    const Block& block = blocks_[index];
+    collect_taken(block);
     uint64_t offset = 0;
     for (const auto& [begin, end] : taken_) {
-      if (offset + blocks_[block].size <= begin) break;
-      offset = std::max(offset, aligned(end, blocks_[block].alignment));
+      if (offset + block.size <= begin) break;
+      offset = std::max(offset, aligned(end, block.alignment));
     }
-    offsets_[block] = offset;
-    placed_.push_back(block);
-    return offset + blocks_[block].size;
+    offsets_[index] = offset;
+    placed_.push_back(index);
+    begun_[block.first].push_back(index);
+    for (uint32_t step = block.first + 1; step <= block.last; ++step) running_[step].push_back(index);
+    return offset + block.size;
   }
-  void take_back() { placed_.pop_back(); }
+  void take_back() {
+    const Block& block = blocks_[placed_.back()];
+    placed_.pop_back();
+    begun_[block.first].pop_back();
+    for (uint32_t step = block.first + 1; step <= block.last; ++step) running_[step].pop_back();
+  }
   [[nodiscard]] const std::vector<uint64_t>& offsets() const { return offsets_; }
 
  private:
+  /// The ranges of those who are live together with the block, in order.
+  void collect_taken(const Block& block) {
+    taken_.clear();
+    const auto take = [&](const std::vector<uint32_t>& others) {
+      for (const uint32_t other : others) taken_.emplace_back(offsets_[other], offsets_[other] + blocks_[other].size);
+    };
+    take(running_[block.first]);
+    for (uint32_t step = block.first; step <= block.last; ++step) take(begun_[step]);
+    std::sort(taken_.begin(), taken_.end());
+  }
+
   std::span<const Block> blocks_;
   std::vector<uint64_t> offsets_;
   std::vector<uint32_t> placed_;
+  std::vector<std::vector<uint32_t>> begun_;    ///< by step: placed blocks whose first it is …
+  std::vector<std::vector<uint32_t>> running_;  ///< … and those that began before it and are live in it
   std::vector<std::pair<uint64_t, uint64_t>> taken_;
 };
 
 uint64_t lower_bound_of(std::span<const Block> blocks) {
+  std::map<uint32_t, uint64_t> changes;  // by step; what ends is added modulo 2^64
+  for (const Block& block : blocks) {
+    changes[block.first] += block.size;
+    changes[block.last + 1] -= block.size;
+  }
+  uint64_t sum = 0;
   uint64_t bound = 0;
-  // The sum grows where a block begins, so these steps are enough.
-  for (const Block& at : blocks) {
-    uint64_t sum = 0;
-    for (const Block& block : blocks)
-      if (block.first <= at.first && at.first <= block.last) sum += block.size;
+  for (const auto& [step, change] : changes) {
+    sum += change;
     bound = std::max(bound, sum);
   }
   return bound;
@@ -125,7 +148,8 @@ class Search {
 
   /// What sticks out at the top goes first in the next try.
   void improve(Order order) {
-    for (uint32_t round = 0; round < kImprovements && !done(); ++round) {
+    const size_t rounds = std::clamp<size_t>(kEffort / order.size(), 2, kImprovements);
+    for (size_t round = 0; round < rounds && !done(); ++round) {
       const size_t top = try_order(order).top;
       if (top == 0) return;
       const auto block = order.begin() + static_cast<std::ptrdiff_t>(top);

@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "framework/graph/schedule.hpp"
 #include "framework/graph/serialise.hpp"
 #include "framework/graph/synchronise.hpp"
 
@@ -75,7 +74,7 @@ Plan compile(const Graph& graph, const CompileOptions& options) {
   Plan plan;
   plan.graph = graph;
   std::vector<std::optional<uint32_t>> producer_step(graph.values.size());
-  for (const uint32_t index : schedule(graph).order) {
+  for (const uint32_t index : schedule(graph, options.order, options.order_seed).order) {
     const GraphPass& pass = graph.passes[index];
     (pass.once.empty() ? plan.steps : plan.once).push_back({index, {}, {}});
     if (!pass.once.empty()) continue;

@@ -8,6 +8,7 @@
 
 #include "framework/graph/access.hpp"
 #include "framework/graph/graph.hpp"
+#include "framework/graph/schedule.hpp"
 
 namespace lightloom {
 
@@ -87,13 +88,6 @@ enum class SyncPolicy : uint8_t {
   conservative,  ///< everything before a step or an observation is done before it begins
 };
 [[nodiscard]] std::string_view to_string(SyncPolicy policy);  ///< as on the command line
-
-/// In which order passes run; any of them keeps every producer before its readers of the same frame.
-enum class PassOrder : uint8_t {
-  level,     ///< as soon as possible, then as declared
-  declared,  ///< as declared, as far as producers allow
-  random,    ///< drawn by a seed
-};
 
 /// Choices that change how a graph is executed but never what it computes.
 struct CompileOptions {

@@ -1,7 +1,7 @@
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <sstream>
+#include <unordered_map>
 #include <utility>
 
 #include "framework/base/hash.hpp"
@@ -46,9 +46,7 @@ class Printer {
   }
 
  private:
-  std::string name(ValueId value) const {
-    return barrier_subject(graph_, value);
-  }
+  std::string name(ValueId value) const { return barrier_subject(graph_, value); }
 
   void prologue() {
     if (plan_.prologue.empty()) return;
@@ -77,7 +75,8 @@ class Printer {
 
   /// Barriers on parts of one port that differ in nothing else share a line.
   void barriers(const std::vector<Barrier>& list) {
-    std::vector<std::pair<std::string, std::vector<std::string>>> lines;  // what follows the name, names
+    std::vector<std::pair<std::string, std::vector<std::string>>> lines;  // port and what follows it, parts
+    std::unordered_map<std::string, std::size_t> line_of;
     for (const Barrier& barrier : list) {
       std::string port = name(barrier.value);
       std::string part;
@@ -89,8 +88,9 @@ class Printer {
       line << ": " << access_info(barrier.from).name << " -> " << access_info(barrier.to).name << ", "
            << to_string(barrier.hazard) << (barrier.previous_frame ? ", previous frame" : "") << ": " << barrier.reason;
       const std::string key = port + "\n" + line.str();
-      const auto same = std::find_if(lines.begin(), lines.end(), [&](const auto& other) { return other.first == key; });
-      (same == lines.end() ? lines.emplace_back(key, std::vector<std::string>{}) : *same).second.push_back(part);
+      const auto [known, is_new] = line_of.try_emplace(key, lines.size());
+      if (is_new) lines.emplace_back(key, std::vector<std::string>{});
+      lines[known->second].second.push_back(part);
     }
     for (const auto& [key, parts] : lines) {
       const std::size_t end = key.find('\n');

@@ -1,6 +1,7 @@
 #include "framework/graph/share_memory.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -11,37 +12,41 @@
 namespace lightloom {
 namespace {
 
-/// A half-open range of bytes.
-struct Range {
-  uint64_t begin = 0;
-  uint64_t end = 0;
-};
-
 /// A value that lives within a frame.
 struct Tenant {
   ValueId value = 0;
   Block block;
   Access written = Access::none;
   std::vector<Access> last_uses;  ///< distinct; of its readers, or its write where nobody reads it
-  Range range;
+  uint64_t offset = 0;            ///< in its heap [bytes]
 };
 
-/// Takes `range` away from what is left; was any of it there?
-bool subtract(std::vector<Range>& left, const Range& range) {
-  std::vector<Range> rest;
-  bool met = false;
-  for (const Range& part : left) {
-    if (part.end <= range.begin || range.end <= part.begin) {
-      rest.push_back(part);
-      continue;
-    }
-    met = true;
-    if (part.begin < range.begin) rest.push_back({part.begin, range.begin});
-    if (range.end < part.end) rest.push_back({range.end, part.end});
+/// Who had which bytes of a heap last.
+class Occupants {
+ public:
+  /// The tenant takes its bytes; returns who had them, some more than once.
+  std::vector<uint32_t> replace(uint64_t begin, uint64_t end, uint32_t tenant) {
+    cut(begin);
+    cut(end);
+    std::vector<uint32_t> before;
+    const auto first = parts_.find(begin);
+    const auto last = parts_.find(end);
+    for (auto part = first; part != last; ++part)
+      if (part->second) before.push_back(*part->second);
+    parts_.erase(std::next(first), last);
+    first->second = tenant;
+    return before;
   }
-  left = std::move(rest);
-  return met;
-}
+
+ private:
+  void cut(uint64_t at) {
+    const auto behind = parts_.upper_bound(at);
+    parts_.emplace_hint(behind, at, std::prev(behind)->second);
+  }
+
+  /// By first byte, each up to the next; empty where nobody was.
+  std::map<uint64_t, std::optional<uint32_t>> parts_ = {{0, std::nullopt}};
+};
 
 class Sharing {
  public:
@@ -90,7 +95,7 @@ class Sharing {
 
   Tenant begin(const Use& use, uint32_t step) const {
     const MemoryNeed& need = needs_[use.value];
-    return {use.value, {need.size, need.alignment, step, step}, use.access, {}, {}};
+    return {use.value, {need.size, need.alignment, step, step}, use.access, {}, 0};
   }
 
   static void touch(Tenant& tenant, Access access, uint32_t step) {
@@ -107,31 +112,40 @@ class Sharing {
     for (size_t i = 0; i < tenants.size(); ++i) {
       Tenant& tenant = tenants[i];
       if (tenant.last_uses.empty()) tenant.last_uses = {tenant.written};
-      tenant.range = {placement.offsets[i], placement.offsets[i] + tenant.block.size};
+      tenant.offset = placement.offsets[i];
       heap.unshared += tenant.block.size;
       result_.places[tenant.value] = SharedPlace{static_cast<uint32_t>(result_.heaps.size()), placement.offsets[i]};
     }
     result_.heaps.push_back(heap);
     std::stable_sort(tenants.begin(), tenants.end(),
                      [](const Tenant& a, const Tenant& b) { return a.block.first < b.block.first; });
-    for (size_t i = 0; i < tenants.size(); ++i) take_over(tenants, i);
+    take_over(tenants);
   }
 
-  /// Goes back from the tenant through this frame and the one before, to itself, until every byte of its range has had
-  /// a tenant.
-  void take_over(const std::vector<Tenant>& tenants, size_t index) {
-    const Tenant& tenant = tenants[index];
-    std::vector<Range> left = {tenant.range};
-    std::vector<const Tenant*> before;
-    for (size_t back = 1; back <= tenants.size() && !left.empty(); ++back) {
-      const Tenant& earlier = tenants[(index + tenants.size() - back) % tenants.size()];
-      if (subtract(left, earlier.range)) before.push_back(&earlier);
+  /// Each takes its memory from those who had a byte of it last, in this frame or, as all frames are alike, in the one
+  /// before.
+  void take_over(const std::vector<Tenant>& tenants) {
+    Occupants occupants;
+    for (const bool frame_before : {true, false}) {
+      for (uint32_t i = 0; i < tenants.size(); ++i) {
+        const Tenant& tenant = tenants[i];
+        if (tenant.block.size == 0) continue;
+        const std::vector<uint32_t> before = occupants.replace(tenant.offset, tenant.offset + tenant.block.size, i);
+        if (!frame_before) wait_for(tenants, i, before);
+      }
     }
+  }
+
+  void wait_for(const std::vector<Tenant>& tenants, uint32_t index, std::vector<uint32_t> before) {
+    const auto count = static_cast<uint32_t>(tenants.size());
+    const auto steps_back = [&](uint32_t other) { return (index + count - 1 - other) % count; };
+    std::sort(before.begin(), before.end(), [&](uint32_t a, uint32_t b) { return steps_back(a) < steps_back(b); });
+    before.erase(std::unique(before.begin(), before.end()), before.end());
     // Alone there, its own last frame is behind barriers already.
-    if (before.size() == 1 && before.front() == &tenant) return;
-    for (const Tenant* earlier : before) {
-      const bool previous_frame = earlier->block.first >= tenant.block.first;
-      for (const Access access : earlier->last_uses) add(tenant, *earlier, access, previous_frame);
+    if (before == std::vector{index}) return;
+    for (const uint32_t other : before) {
+      const bool previous_frame = other >= index;
+      for (const Access access : tenants[other].last_uses) add(tenants[index], tenants[other], access, previous_frame);
     }
   }
 

@@ -1,6 +1,7 @@
 #include "framework/graph/verify.hpp"
 
 #include <algorithm>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -82,11 +83,15 @@ class Judge {
 
   void check(const Trace& trace) {
     contents(trace);
-    for (std::size_t i = 0; i < trace.size() && !full(); ++i)
-      if (trace[i].kind == Event::Kind::access)
-        order(trace, i);
-      else if (trace[i].kind == Event::Kind::takeover)
-        begins(trace, i);
+    std::set<Access> reads;  // since the last barrier or write
+    for (std::size_t i = 0; i < trace.size() && !full(); ++i) {
+      const bool read = trace[i].kind == Event::Kind::access && !access_info(trace[i].access).writes;
+      if (!read) reads.clear();
+      if (trace[i].kind == Event::Kind::takeover) begins(trace, i);
+      if (trace[i].kind != Event::Kind::access) continue;
+      // Alike reads with no barrier between them reach alike far.
+      if (!read || reads.insert(trace[i].access).second) order(trace, i);
+    }
   }
 
  private:
@@ -100,6 +105,10 @@ class Judge {
     const std::string text = name(value) + ": " + sentence;
     const auto& known = result_.violations;
     if (!full() && std::find(known.begin(), known.end(), text) == known.end()) result_.violations.push_back(text);
+  }
+
+  static std::string phrase(const Event& access) {
+    return std::string(access.who) + " (" + std::string(access_info(access.access).name) + ")";
   }
 
   static std::string frame_text(int frame) {
@@ -122,18 +131,22 @@ class Judge {
       }
       const bool writes = access_info(event.access).writes;
       if (holder != event.value && holder != kNobody) {
-        complain(event.value, event.who + " touches memory that holds " + name(holder) + " and was not taken over");
+        complain(event.value,
+                 std::string(event.who) + " touches memory that holds " + name(holder) + " and was not taken over");
         return;
       }
       const bool expects = !writes || event.content != kUndefined;
       if (expects && event.frame != kPrologue && content != event.content)
-        complain(event.value, event.who + " finds " + frame_text(content) + " instead of " + frame_text(event.content));
+        complain(event.value,
+                 std::string(event.who) + " finds " + frame_text(content) + " instead of " + frame_text(event.content));
       holder = event.value;
       if (writes) content = event.frame;
     }
   }
 
-  /// Holds every later access that conflicts with the one at `first` against the barriers between.
+  /// Holds later accesses that conflict with the one at `first` against the barriers between, up to the first write
+  /// that is in order: whatever conflicts with the former behind it conflicts with the latter too, and a chain of
+  /// barriers that begins at the latter goes on from the former.
   void order(const Trace& trace, std::size_t first) {
     const AccessInfo& source = access_info(trace[first].access);
     Reach reach(source);
@@ -149,11 +162,10 @@ class Judge {
       const AccessInfo& target = access_info(event.access);
       if (!source.writes && !target.writes) continue;
       ++result_.pairs;
-      if (reach.covers(target)) continue;
-      complain(event.value, trace[first].who + " (" + std::string(source.name) + ") and " + event.who + " (" +
-                                std::string(target.name) + ") are not ordered" +
-                                (event.frame != trace[first].frame ? " from frame to frame" : ""));
-      return;
+      if (!reach.covers(target))
+        complain(event.value, phrase(trace[first]) + " and " + phrase(event) + " are not ordered" +
+                                  (event.frame != trace[first].frame ? " from frame to frame" : ""));
+      if (target.writes || !reach.covers(target)) return;
     }
   }
 
@@ -171,7 +183,7 @@ class Judge {
       const AccessInfo& target = access_info(trace[i].access);
       const AccessInfo& reached = access_info(trace[at].access);
       if (!within(target.stages, reached.stages) || !within(target.access, reached.access))
-        complain(trace[i].value, trace[i].who + " does not wait for the memory to be taken over");
+        complain(trace[i].value, std::string(trace[i].who) + " does not wait for the memory to be taken over");
       return;
     }
   }
@@ -188,9 +200,8 @@ class Judge {
         access |= access_info(event.from).access;
       }
       if (reach.ends_before(stages, access)) continue;
-      complain(taker.value, "takes memory over before " + trace[first].who + " (" +
-                                std::string(access_info(trace[first].access).name) + ") is done with " +
-                                name(trace[first].value));
+      complain(taker.value,
+               "takes memory over before " + phrase(trace[first]) + " is done with " + name(trace[first].value));
       return false;
     }
     return true;

@@ -22,7 +22,7 @@ struct Verification {
   uint64_t frames = 0;                  ///< that were played
   uint64_t accesses = 0;
   uint64_t barriers = 0;
-  uint64_t pairs = 0;  ///< of accesses to the same memory that had to be ordered
+  uint64_t pairs = 0;  ///< of accesses to the same memory that had to be ordered, without those that follow from others
 };
 
 /// Checks a plan by another method than its synthesis, and shares no code with it: plays enough frames for every ring

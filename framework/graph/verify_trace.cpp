@@ -112,12 +112,11 @@ class Player {
   void observations(const std::vector<Observation>& list, int frame) {
     for (const Observation& observation : list) {
       barriers(observation.barriers);
-      read(observation.value, access_of(observation.observer), observation.age, frame,
-           std::string(to_string(observation.observer)));
+      read(observation.value, access_of(observation.observer), observation.age, frame, to_string(observation.observer));
     }
   }
 
-  void read(ValueId value, Access access, uint32_t age, int frame, const std::string& who) {
+  void read(ValueId value, Access access, uint32_t age, int frame, std::string_view who) {
     const bool constant = value != kFrameInputs && plan_.graph.values[value].constant.has_value();
     const bool once = value != kFrameInputs && written_once_[value];
     const int written = constant ? kPrologue : once ? 0 : frame - static_cast<int>(age);
@@ -128,7 +127,20 @@ class Player {
 
   void touch(const Event& event, int layer) {
     ++accesses_;
-    for (const Piece& piece : map_.pieces(event.value, layer)) traces_[piece].push_back(event);
+    for (const Piece& piece : map_.pieces(event.value, layer)) trace_of(piece).push_back(event);
+  }
+
+  /// Full barriers enter a trace when something else follows: of those in a row the first, behind which all is done,
+  /// and the last, which may be recorded together with what follows.
+  Trace& trace_of(const Piece& piece) {
+    Trace& trace = traces_[piece];
+    std::size_t& seen = full_barriers_seen_[piece];
+    if (seen < full_barriers_.size() && !trace.empty()) {
+      trace.push_back(full_barriers_[seen]);
+      if (seen + 1 < full_barriers_.size()) trace.push_back(full_barriers_.back());
+    }
+    seen = full_barriers_.size();
+    return trace;
   }
 
   void barriers(const std::vector<Barrier>& list) {
@@ -142,11 +154,11 @@ class Player {
                         .batch = batch_,
                         .who = {}};
       if (barrier.value == kEverything) {
-        for (auto& [piece, trace] : traces_) trace.push_back(event);
+        full_barriers_.push_back(event);
         continue;
       }
       for (int layer = 0; layer < map_.layers(barrier.value); ++layer) {
-        for (const Piece& piece : map_.pieces(barrier.value, layer)) traces_[piece].push_back(event);
+        for (const Piece& piece : map_.pieces(barrier.value, layer)) trace_of(piece).push_back(event);
       }
     }
   }
@@ -155,6 +167,8 @@ class Player {
   const MemoryMap& map_;
   std::vector<bool> written_once_;
   std::map<Piece, Trace> traces_;
+  std::vector<Event> full_barriers_;
+  std::map<Piece, std::size_t> full_barriers_seen_;
   uint32_t batch_ = 0;
   uint64_t accesses_ = 0;
   uint64_t barriers_ = 0;

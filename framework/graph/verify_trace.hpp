@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <map>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "framework/graph/verify.hpp"
@@ -21,7 +21,7 @@ struct Event {
   uint32_t batch = 0;            ///< barriers of one batch are recorded together, and none waits for another
   int frame = kPrologue;
   int content = kPrologue;  ///< reads: the frame whose write is expected
-  std::string who;
+  std::string_view who;     ///< a pass of the plan, which outlives the trace, or a literal
 };
 
 /// Events that touch one piece of memory, in order of submission.

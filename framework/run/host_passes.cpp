@@ -69,7 +69,7 @@ class Context final : public HostContext {
 
   [[nodiscard]] bool wanted(std::string_view output_port) const override {
     return std::any_of(pass_.outputs.begin(), pass_.outputs.end(),
-                       [&](const Use& use) { return use.port == output_port && is_read(graph_, use.value); });
+                       [&](const Use& use) { return use.port == output_port && graph_.values[use.value].read; });
   }
 
   [[nodiscard]] HostInput input(std::string_view port, std::string_view part) const override {
@@ -131,7 +131,7 @@ HostPasses::HostPasses(const gpu::Device& device, const Plan& plan) {
       inputs_.try_emplace({use.value, use.first_age}, device, byte_size(graph.values[use.value].desc), 0,
                           gpu::MemoryKind::readback, name(use));
     for (const Use& use : pass.outputs)
-      if (is_read(graph, use.value))
+      if (graph.values[use.value].read)
         outputs_.try_emplace(use.value, device, byte_size(graph.values[use.value].desc), 0, gpu::MemoryKind::upload,
                              name(use));
   }
@@ -165,7 +165,7 @@ double HostPasses::run(const Graph& graph, const GraphPass& pass, const HostFram
 void HostPasses::record_outputs(VkCommandBuffer commands, const Graph& graph, const GraphPass& pass,
                                 const ValueImages& images, uint64_t frame_count) const {
   for (const Use& use : pass.outputs) {
-    if (!is_read(graph, use.value)) continue;
+    if (!graph.values[use.value].read) continue;
     const ValueLayer layer = images.layer(use.value, 0, frame_count);
     gpu::record_buffer_to_image(commands, outputs_.at(use.value).get(), 0, *layer.image,
                                 gpu::whole_level(*layer.image, layer.layer), VK_IMAGE_LAYOUT_GENERAL);

@@ -66,12 +66,12 @@ bool PassRecorder::kept(std::string_view port) const {
 
 bool PassRecorder::wanted(std::string_view output_port) const {
   return std::any_of(pass_.outputs.begin(), pass_.outputs.end(),
-                     [&](const Use& use) { return use.port == output_port && is_read(graph_, use.value); });
+                     [&](const Use& use) { return use.port == output_port && graph_.values[use.value].read; });
 }
 
 std::vector<VoxelBox> PassRecorder::moved_boxes(const Extent3& grid) const {
   // What an older value differs in is where things moved in earlier frames, which nobody keeps.
-  if (dynamic_triangles().count > 0 && looks_back(graph_, pass_)) return {whole_grid(grid)};
+  if (dynamic_triangles().count > 0 && pass_.looks_back) return {whole_grid(grid)};
   return run::moved_boxes(environment_.scene->bounds, grid, environment_.scene->moved);
 }
 
