@@ -1,6 +1,30 @@
 #include "framework/cli/graph_options.hpp"
 
+#include <charconv>
+#include <system_error>
+
 namespace lightloom::cli {
+
+std::string parse_value(std::string_view text, OrderChoice& value) {
+  constexpr std::string_view kRandom = "random:";
+  uint64_t seed = 0;
+  if (text.starts_with(kRandom)) {
+    const char* end = text.data() + text.size();
+    const auto result = std::from_chars(text.data() + kRandom.size(), end, seed);
+    if (result.ec == std::errc{} && result.ptr == end) {
+      value = {PassOrder::random, seed};
+      return {};
+    }
+  }
+  if (text != "level" && text != "declared")
+    return "expected level, declared or random:SEED, with a seed from 0 to 2^64 - 1";
+  value = {text == "level" ? PassOrder::level : PassOrder::declared, 0};
+  return {};
+}
+
+std::string format_value(const OrderChoice& value) {
+  return to_string(value.order, value.seed);
+}
 
 void GraphOptions::add_to(Command& command) {
   const auto group = [](Option& option) -> Option& { return option.group("Changes to the graph"); };
@@ -28,6 +52,10 @@ void GraphOptions::add_to(Command& command) {
                        "Barriers: only those that the accesses demand, or everything before each pass done before it "
                        "begins; the pictures are the same"))
       .choices({"minimal", "conservative"});
+  group(command.option("--order", order,
+                       "Order of passes that do not need each other: level (as soon as possible), declared (as in the "
+                       "file) or random:SEED; the pictures are the same"))
+      .placeholder("ORDER");
   group(command.option("--size", size, "View size in pixels, instead of the graph's"));
   group(command.option("--trace-size", trace_size, "Size in pixels at which is traced, instead of the graph's"));
 }
@@ -50,6 +78,8 @@ LinkOptions GraphOptions::link_options() const {
 CompileOptions GraphOptions::compile_options() const {
   CompileOptions options;
   if (sync == "conservative") options.sync = SyncPolicy::conservative;
+  options.order = order.order;
+  options.order_seed = order.seed;
   return options;
 }
 

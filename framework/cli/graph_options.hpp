@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "framework/cli/argument_parser.hpp"
@@ -9,6 +10,14 @@
 #include "framework/graph/plan.hpp"
 
 namespace lightloom::cli {
+
+/// level, declared or random:SEED.
+struct OrderChoice {
+  PassOrder order = PassOrder::level;
+  uint64_t seed = 0;
+};
+[[nodiscard]] std::string parse_value(std::string_view text, OrderChoice& value);
+[[nodiscard]] std::string format_value(const OrderChoice& value);
 
 /// The options by which a command line changes a graph; shared by `render`, `plan` and `check`.
 struct GraphOptions {
@@ -23,6 +32,7 @@ struct GraphOptions {
   bool no_hoist = false;
   bool general = false;
   std::string sync = "minimal";
+  OrderChoice order;
 
   void add_to(Command& command);
   [[nodiscard]] LinkOptions link_options() const;

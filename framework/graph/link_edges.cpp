@@ -41,7 +41,7 @@ std::string_view class_name(NumericClass numeric) {
 /// A misspelt input is reported as such; that the right one is missing then goes without saying.
 bool misspelt(const Node& node, const std::string& missing) {
   return std::any_of(node.spec->inputs.begin(), node.spec->inputs.end(), [&](const ConnectionSpec& connection) {
-    return node.type->find_port(connection.name, Direction::in) == nullptr &&
+    return !dropped(node, connection.name) && node.type->find_port(connection.name, Direction::in) == nullptr &&
            closest_match(connection.name, {missing}).has_value();
   });
 }
@@ -86,9 +86,7 @@ ResolvedInput EdgeResolver::resolve_input(uint32_t index, const Port& port) {
   input.edge = &connection->edge;
   input.state = Connection::broken;
   const std::optional<Target> target = find_target(connection->edge, true);
-  if (!target ||
-      !check_kind("input '" + port.name + "' of pass '" + node.spec->name + "'", port, connection->edge, *target))
-    return input;
+  if (!target || !check_kind({port.name, &node.spec->name}, port, connection->edge, *target)) return input;
   input.state = Connection::connected;
   for (const PortPart& part : port.parts) {
     const uint32_t source = target->part ? *target->part : *part_index(*target->port, part.name);
@@ -124,7 +122,9 @@ std::optional<EdgeResolver::Target> EdgeResolver::find_target(const EdgeSpec& ed
 
 std::optional<EdgeResolver::Target> EdgeResolver::find_port(const EdgeSpec& edge, uint32_t index) {
   const PassType& type = *nodes_.list[index].type;
-  const std::string which = "edge " + in_quotes(edge.text) + ": pass '" + edge.pass + "' of type '" + type.name + "'";
+  const auto which = [&] {
+    return "edge " + in_quotes(edge.text) + ": pass '" + edge.pass + "' of type '" + type.name + "'";
+  };
   const Port* port = type.find_port(edge.port, Direction::out);
   if (port == nullptr) {
     std::vector<std::string> names;
@@ -132,7 +132,7 @@ std::optional<EdgeResolver::Target> EdgeResolver::find_port(const EdgeSpec& edge
       if (candidate.direction == Direction::out) names.push_back(candidate.name);
     const bool scratch = type.find_port(edge.port, Direction::scratch) != nullptr;
     report_.error("unknown-port", edge.where,
-                  which + " has no output " + in_quotes(edge.port) +
+                  which() + " has no output " + in_quotes(edge.port) +
                       (scratch ? "; it is scratch, which lives within the pass alone" : ""),
                   did_you_mean(edge.port, names, "its outputs"));
     return std::nullopt;
@@ -142,7 +142,7 @@ std::optional<EdgeResolver::Target> EdgeResolver::find_port(const EdgeSpec& edge
     target.part = part_index(*port, edge.part);
     if (!target.part) {
       report_.error(
-          "unknown-part", edge.where, which + ": output '" + port->name + "' has no part " + in_quotes(edge.part),
+          "unknown-part", edge.where, which() + ": output '" + port->name + "' has no part " + in_quotes(edge.part),
           port->bundle.empty() ? "it is a single image" : did_you_mean(edge.part, part_names(*port), "its parts"));
       return std::nullopt;
     }
@@ -150,10 +150,14 @@ std::optional<EdgeResolver::Target> EdgeResolver::find_port(const EdgeSpec& edge
   return target;
 }
 
-bool EdgeResolver::check_kind(const std::string& consumer, const Port& input, const EdgeSpec& edge,
-                              const Target& target) {
+std::string EdgeResolver::Consumer::text() const {
+  return pass == nullptr ? "output '" + name + "'" : "input '" + name + "' of pass '" + *pass + "'";
+}
+
+bool EdgeResolver::check_kind(const Consumer& consumer, const Port& input, const EdgeSpec& edge, const Target& target) {
   if (edge.first_age != edge.last_age && !input.array) {
-    report_.error("unexpected-range", edge.where, consumer + " takes one image, not the range " + in_quotes(edge.text),
+    report_.error("unexpected-range", edge.where,
+                  consumer.text() + " takes one image, not the range " + in_quotes(edge.text),
                   "name one age, for instance \"" + edge.text.substr(0, edge.text.find("..")) + "\"");
     return false;
   }
@@ -161,7 +165,7 @@ bool EdgeResolver::check_kind(const std::string& consumer, const Port& input, co
   if (target.port->dimension != input.dimension) {
     const auto name = [](Dimension dimension) { return dimension == Dimension::d2 ? "2D" : "3D"; };
     report_.error("dimension-mismatch", edge.where,
-                  consumer + " is " + name(input.dimension) + ", but " + in_quotes(edge.text) + " is " +
+                  consumer.text() + " is " + name(input.dimension) + ", but " + in_quotes(edge.text) + " is " +
                       name(target.port->dimension));
     return false;
   }
@@ -171,29 +175,30 @@ bool EdgeResolver::check_kind(const std::string& consumer, const Port& input, co
     const NumericClass wanted = format_info(part.format).numeric;
     if (given == wanted) continue;
     report_.error("numeric-mismatch", edge.where,
-                  consumer + " reads " + std::string(class_name(wanted)) + " texels, but " + in_quotes(edge.text) +
-                      " is " + std::string(format_info(target.port->parts[source].format).name));
+                  consumer.text() + " reads " + std::string(class_name(wanted)) + " texels, but " +
+                      in_quotes(edge.text) + " is " + std::string(format_info(target.port->parts[source].format).name));
     return false;
   }
   return true;
 }
 
-bool EdgeResolver::check_bundle(const std::string& consumer, const Port& input, const EdgeSpec& edge,
+bool EdgeResolver::check_bundle(const Consumer& consumer, const Port& input, const EdgeSpec& edge,
                                 const Target& target) {
   const bool whole = !target.part.has_value();
-  const std::string given = whole ? kind_name(*target.port) : "a single image";
   if (input.bundle != (whole ? target.port->bundle : "")) {
     const bool name_a_part = input.bundle.empty() && whole;
     report_.error("bundle-mismatch", edge.where,
-                  consumer + " takes " + kind_name(input) + ", but " + in_quotes(edge.text) + " is " + given,
+                  consumer.text() + " takes " + kind_name(input) + ", but " + in_quotes(edge.text) + " is " +
+                      (whole ? kind_name(*target.port) : "a single image"),
                   name_a_part ? "name one part: " + join(part_names(*target.port), ", ") : "");
     return false;
   }
   if (!whole) return true;
   for (const PortPart& part : input.parts) {
     if (part_index(*target.port, part.name)) continue;
-    report_.error("bundle-mismatch", edge.where,
-                  consumer + " needs part '" + part.name + "', which " + in_quotes(edge.text) + " does not have");
+    report_.error(
+        "bundle-mismatch", edge.where,
+        consumer.text() + " needs part '" + part.name + "', which " + in_quotes(edge.text) + " does not have");
     return false;
   }
   return true;
@@ -262,8 +267,7 @@ EdgeResolver::Found EdgeResolver::through_bypass(const ImageRef& image) {
   if (connection == nullptr) return {Connection::no_bypass, {}, image};
   const EdgeSpec& edge = connection->edge;
   const std::optional<Target> target = find_target(edge, true);
-  if (!target || !check_kind("input '" + input.name + "' of pass '" + node.spec->name + "'", input, edge, *target))
-    return {};
+  if (!target || !check_kind({input.name, &node.spec->name}, input, edge, *target)) return {};
   const uint32_t part = target->part ? *target->part : *part_index(*target->port, image.port->parts[image.part].name);
   return {Connection::connected, {{target->node, target->port, part}, false, edge.first_age, edge.last_age}, {}};
 }
@@ -279,9 +283,9 @@ ResolvedOutput EdgeResolver::resolve_output(const ConnectionSpec& output) {
   port.parts.front().name.clear();
   port.dimension = target->port->dimension;
   if (target->port->bundle.empty() || target->part) {
-    if (!check_kind("output '" + output.name + "'", port, output.edge, *target)) return resolved;
+    if (!check_kind({output.name}, port, output.edge, *target)) return resolved;
   } else {
-    static_cast<void>(check_bundle("output '" + output.name + "'", port, output.edge, *target));
+    static_cast<void>(check_bundle({output.name}, port, output.edge, *target));
     return resolved;
   }
   const Found found = follow({target->node, target->port, target->part.value_or(0)}, output.edge);

@@ -143,6 +143,12 @@ class EdgeResolver {
   [[nodiscard]] ResolvedInput resolve_input(uint32_t node, const Port& port);
 
  private:
+  /// Who takes what an edge brings.
+  struct Consumer {
+    const std::string& name;            ///< of the input, or of the graph's output
+    const std::string* pass = nullptr;  ///< null: the graph
+    [[nodiscard]] std::string text() const;
+  };
   struct Target {
     uint32_t node = kNoNode;
     const Port* port = nullptr;
@@ -163,9 +169,9 @@ class EdgeResolver {
   };
   [[nodiscard]] std::optional<Target> find_target(const EdgeSpec& edge, bool consumer_enabled);
   [[nodiscard]] std::optional<Target> find_port(const EdgeSpec& edge, uint32_t node);
-  [[nodiscard]] bool check_kind(const std::string& consumer, const Port& input, const EdgeSpec& edge,
+  [[nodiscard]] bool check_kind(const Consumer& consumer, const Port& input, const EdgeSpec& edge,
                                 const Target& target);
-  [[nodiscard]] bool check_bundle(const std::string& consumer, const Port& input, const EdgeSpec& edge,
+  [[nodiscard]] bool check_bundle(const Consumer& consumer, const Port& input, const EdgeSpec& edge,
                                   const Target& target);
   /// Through the bypasses of disabled passes to what stands in the end.
   [[nodiscard]] Found follow(const ImageRef& image, const EdgeSpec& edge);

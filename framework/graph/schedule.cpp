@@ -90,6 +90,11 @@ class AnyReady {
 
 }  // namespace
 
+std::string to_string(PassOrder order, uint64_t seed) {
+  if (order == PassOrder::random) return "random:" + std::to_string(seed);
+  return order == PassOrder::declared ? "declared" : "level";
+}
+
 Schedule schedule(const Graph& graph, PassOrder order, uint64_t seed) {
   if (order == PassOrder::random) return run(dependencies_of(graph), AnyReady(seed));
   Schedule result = run(dependencies_of(graph), FirstDeclared());

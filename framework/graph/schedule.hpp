@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "framework/graph/graph.hpp"
@@ -13,6 +14,9 @@ enum class PassOrder : uint8_t {
   declared,  ///< as declared, as far as producers allow
   random,    ///< drawn by a seed
 };
+
+/// "level", "declared", "random:SEED".
+[[nodiscard]] std::string to_string(PassOrder order, uint64_t seed);
 
 struct Schedule {
   std::vector<uint32_t> order;   ///< indices into Graph::passes, in execution order

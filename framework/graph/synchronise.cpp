@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <compare>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
 #include "framework/base/text.hpp"
@@ -92,17 +93,30 @@ std::vector<Access> distinct_accesses(const Round& round, Filter filter) {
   return accesses;
 }
 
+/// Names in the order in which they came, each once.
+class Names {
+ public:
+  void add(const std::string& name) {
+    if (known_.insert(name).second) list_.push_back(name);
+  }
+  [[nodiscard]] std::string text() const { return join(list_, ", "); }
+
+ private:
+  std::vector<std::string> list_;
+  std::unordered_set<std::string> known_;
+};
+
 template <class Filter>
 std::string names_of(const Round& round, Access access, Filter filter) {
-  std::vector<std::string> names;
+  Names names;
   for (const Reader& reader : round.readers) {
     if (!filter(reader) || !covers(access, reader.access)) continue;
     std::string name = reader.name;
     if (reader.first_age > 0)
       name += " (" + std::to_string(reader.last_age) + (reader.last_age == 1 ? " frame" : " frames") + " back)";
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+    names.add(name);
   }
-  return join(names, ", ");
+  return names.text();
 }
 
 class Synchroniser {
@@ -197,11 +211,10 @@ class Synchroniser {
   }
 
   static std::string names_of_stages(const Round& round, Access access) {
-    std::vector<std::string> names;
+    Names names;
     for (const Reader& reader : round.readers)
-      if (same_stages(reader.access, access) && std::find(names.begin(), names.end(), reader.name) == names.end())
-        names.push_back(reader.name);
-    return join(names, ", ");
+      if (same_stages(reader.access, access)) names.add(reader.name);
+    return names.text();
   }
 
   std::vector<Barrier>& at(const Position& position) {

@@ -62,6 +62,7 @@ Json run_record(const Run& run, const Executor& executor, const RunChecks& check
   record["frozen_time"] = request.frozen_time ? Json(*request.frozen_time) : Json();
   record["sync"] = to_string(request.compile.sync);
   record["pass_times"] = request.time_passes;
+  record["order"] = to_string(request.compile.order, request.compile.order_seed);
   record["dump_format"] = to_string(request.dump_format);
   record["output_frames"] = to_string(request.output_frames);
   record["dump_frames"] = to_string(request.dump_frames);

@@ -116,7 +116,7 @@ void expect_linear(const char* shape, const std::function<std::string(uint32_t)>
   const Times large = measure(text(10000), 5);
   print_table(shape, small, large);
   EXPECT_LT(to_plan(small), 50);
-  EXPECT_LT(to_plan(large) / to_plan(small), 10 * 1.5);
+  EXPECT_LT(to_plan(large), 10 * 2.5 * to_plan(small));  // caches and a busy machine; quadratic growth would be 10
   for (const Phase phase : {shared, hashed, printed, verified}) {
     EXPECT_LT(small.at(phase), 200) << kNames.at(phase);
     EXPECT_LT(large.at(phase), 10 * 2.5 * small.at(phase)) << kNames.at(phase);
