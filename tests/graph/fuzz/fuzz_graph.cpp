@@ -55,7 +55,7 @@ std::vector<Seedling> seedlings() {
   for (const auto& file : files) list.push_back({read_text_file(file), &real_types()});
   // The graphs that ship reach furthest, and toys have what no real pass has.
   for (const auto& file : files)
-    if (file.parent_path().filename() == "graphs") list.insert(list.end(), 8, {read_text_file(file), &real_types()});
+    if (file.parent_path().filename() == "graphs") list.insert(list.end(), 20, {read_text_file(file), &real_types()});
   for (uint32_t seed = 0; seed < 40; ++seed)
     list.push_back({toy::random_graph(seed, 4 + static_cast<int>(seed % 12)), &toy::registry()});
   return list;

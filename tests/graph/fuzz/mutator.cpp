@@ -49,18 +49,29 @@ struct Span {
   std::size_t end = 0;
 };
 
-/// From `begin` to the end of the member's value and a comma behind it, by the balance of brackets.
+/// From `begin` to the end of the member's value, by the balance of brackets.
 Span member_at(const Tokens& tokens, std::size_t begin) {
   int depth = 0;
   for (std::size_t i = begin; i < tokens.size(); ++i) {
     const std::string& token = tokens[i];
-    if (depth == 0 && token == ",") return {begin, i + 1};
+    if (depth == 0 && token == ",") return {begin, i};
     if (token == "{" || token == "[") ++depth;
     if (token != "}" && token != "]") continue;
     if (depth == 0) return {begin, i};
     --depth;
   }
   return {begin, tokens.size()};
+}
+
+/// With the comma behind it, or, where it is the last one, with that before it.
+Span with_comma(const Tokens& tokens, Span span) {
+  std::size_t behind = span.end;
+  while (behind < tokens.size() && tokens[behind].find_first_not_of(" \n") == std::string::npos) ++behind;
+  if (behind < tokens.size() && tokens[behind] == ",") return {span.begin, behind + 1};
+  std::size_t before = span.begin;
+  while (before > 0 && tokens[before - 1].find_first_not_of(" \n") == std::string::npos) --before;
+  if (before > 0 && tokens[before - 1] == ",") return {before - 1, span.end};
+  return span;
 }
 
 /// Tokens that fit.
@@ -181,18 +192,19 @@ Mutator::Mutator(std::vector<std::string> corpus, std::vector<std::string> names
 
 std::string Mutator::mutate(const std::string& text, Random& random) const {
   Tokens tokens = tokens_of(text);
-  for (uint64_t changes = 1 + random() % 5; changes > 0; --changes)
+  const uint64_t most = 1 + random() % 5;
+  for (uint64_t changes = 1 + random() % most; changes > 0; --changes)
     if (!tokens.empty()) change(tokens, random);
   std::string result = text_of(tokens);
-  if (random() % 12 == 0) spoil_bytes(result, random);
+  if (random() % 16 == 0) spoil_bytes(result, random);
   if (result.size() > kLongest) result.resize(kLongest);
   return result;
 }
 
 void Mutator::change(Tokens& tokens, Random& random) const {
-  const uint64_t kind = random() % 20;
-  if (kind < 8) return change_member(tokens, random);
-  if (kind < 19) return change_string(tokens, random);
+  const uint64_t kind = random() % 32;
+  if (kind < 14) return change_member(tokens, random);
+  if (kind < 31) return change_string(tokens, random);
   break_syntax(tokens, random);
 }
 
@@ -203,11 +215,11 @@ void Mutator::change_member(Tokens& tokens, Random& random) const {
   const Span member = member_at(tokens, any(keys, random));
   switch (random() % 5) {
     case 0:
-      return erase(tokens, member);
+      return erase(tokens, with_comma(tokens, member));
     case 1: {
       Tokens again = copy(tokens, member);
       if (random() % 4 != 0) again.front().insert(again.front().size() - 1, std::to_string(random() % 10));
-      if (again.back() != ",") again.insert(again.begin(), ","), std::swap(again.front(), again.back());
+      again.emplace_back(",");
       return insert(tokens, member.begin, again);
     }
     case 2:
@@ -217,7 +229,9 @@ void Mutator::change_member(Tokens& tokens, Random& random) const {
       const Tokens& other = any(corpus_, random);
       const std::vector<std::size_t> others = keys_in(other);
       if (others.empty()) return;
-      return insert(tokens, member.begin, copy(other, member_at(other, any(others, random))));
+      Tokens borrowed = copy(other, member_at(other, any(others, random)));
+      borrowed.emplace_back(",");
+      return insert(tokens, member.begin, borrowed);
     }
     default: {
       const auto openings = find_all(tokens, [&](std::size_t i) { return tokens[i] == "{"; });

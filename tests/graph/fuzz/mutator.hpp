@@ -22,7 +22,7 @@ class Mutator {
   /// `corpus`: what parts are borrowed from. `names`: words that mean something, pass types for instance.
   Mutator(std::vector<std::string> corpus, std::vector<std::string> names);
 
-  /// One to five changes.
+  /// Mostly one or two changes, up to five.
   [[nodiscard]] std::string mutate(const std::string& text, Random& random) const;
 
  private:
