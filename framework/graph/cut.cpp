@@ -88,13 +88,15 @@ class Cutter {
     result_.graph.captures.clear();
     for (const ValueId capture : whole_.captures)
       if (is_made(capture)) result_.graph.captures.push_back(*ids_[capture]);
+    mark_reads(result_.graph);
     std::vector<ValueId> lost;
     for (ValueId id = 0; id < whole_.values.size(); ++id)
-      if (is_made(id) && is_read(whole_, id) && !is_read(result_.graph, *ids_[id])) lost.push_back(*ids_[id]);
+      if (is_made(id) && whole_.values[id].read && !result_.graph.values[*ids_[id]].read) lost.push_back(*ids_[id]);
     std::vector<ValueId> all;
     std::merge(result_.graph.captures.begin(), result_.graph.captures.end(), lost.begin(), lost.end(),
                std::back_inserter(all));
     result_.graph.captures = std::move(all);
+    mark_reads(result_.graph);
   }
 
   const Graph& whole_;

@@ -24,7 +24,7 @@ std::vector<bool> watched_values(const Graph& graph) {
   std::vector<bool> watched(graph.values.size(), false);
   // What nobody reads is not asked for either: a pass may leave it out, and asking would change that.
   for (const GraphPass& pass : graph.passes) {
-    for (const Use& use : pass.outputs) watched[use.value] = is_read(graph, use.value);
+    for (const Use& use : pass.outputs) watched[use.value] = graph.values[use.value].read;
     for (const Use& use : pass.scratch) watched[use.value] = true;
   }
   return watched;
@@ -41,6 +41,7 @@ Graph watched_graph(const Graph& graph, const std::vector<bool>& watched) {
       for (uint32_t age = std::max(use.first_age, 1u); age <= use.last_age; ++age)
         if (!graph.values[use.value].constant)
           result.outputs.push_back({value_name(graph.values[use.value]) + "@" + std::to_string(age), use.value, age});
+  mark_reads(result);
   return result;
 }
 

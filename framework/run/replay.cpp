@@ -109,10 +109,11 @@ void capture_outputs(Graph& graph) {
   std::vector<ValueId> captures = graph.captures;
   for (const GraphPass& pass : graph.passes)
     for (const Use& use : pass.outputs)
-      if (is_read(graph, use.value)) captures.push_back(use.value);
+      if (graph.values[use.value].read) captures.push_back(use.value);
   std::sort(captures.begin(), captures.end());
   captures.erase(std::unique(captures.begin(), captures.end()), captures.end());
   graph.captures = std::move(captures);
+  mark_reads(graph);
 }
 
 ReplayedValue held_against_dump(const Replay& replay, const Value& value, const image::HostImage& image, bool compare) {
