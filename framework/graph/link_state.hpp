@@ -24,7 +24,7 @@ class Report {
              const std::string& hint = {});
   void warning(std::string_view code, const SourceLocation& where, const std::string& message,
                const std::string& hint = {});
-  [[nodiscard]] bool has_errors() const { return diagnostics_->has_errors(); }
+  [[nodiscard]] bool has_errors() const { return diagnostics_.has_errors(); }
 
  private:
   [[nodiscard]] bool is_new(std::string_view code, const SourceLocation& where, const std::string& message);
