@@ -5,6 +5,7 @@
 
 #include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
+#include "framework/base/hash.hpp"
 #include "framework/base/text.hpp"
 
 namespace lightloom::gpu {
@@ -33,7 +34,8 @@ std::string included_name(std::string_view line) {
 
 class Collector {
  public:
-  explicit Collector(std::span<const std::filesystem::path> directories) : directories_(directories) {}
+  Collector(std::span<const std::filesystem::path> directories, FileContents& files)
+      : directories_(directories), files_(files) {}
 
   void follow(const std::string& name, const std::string& text) {
     chain_.push_back(name);
@@ -58,12 +60,14 @@ class Collector {
     }
     if (texts_.contains(name)) return;
     const std::filesystem::path file = find_file(name, directories_);
-    if (file.empty()) return;
+    if (file.empty()) return note_file(name, directories_, std::nullopt, files_);
     const std::string& text = texts_.emplace(name, read_text_file(file)).first->second;
+    note_file(name, directories_, text, files_);
     follow(name, text);
   }
 
   std::span<const std::filesystem::path> directories_;
+  FileContents& files_;
   IncludeTexts texts_;
   std::vector<std::string> chain_;
 };
@@ -79,9 +83,22 @@ std::filesystem::path find_file(const std::string& name, std::span<const std::fi
   return {};
 }
 
-IncludeTexts collect_includes(std::span<const ShaderSource> sources,
-                              std::span<const std::filesystem::path> directories) {
-  Collector collector(directories);
+void note_file(const std::string& name, std::span<const std::filesystem::path> directories,
+               const std::optional<std::string>& text, FileContents& files) {
+  const std::filesystem::path found = text ? find_file(name, directories) : std::filesystem::path();
+  for (const std::filesystem::path& directory : directories) {
+    std::filesystem::path file = directory / name;
+    if (file == found) {
+      files.insert_or_assign(std::move(file), hash_text(*text));
+      return;
+    }
+    files.insert_or_assign(std::move(file), std::nullopt);
+  }
+}
+
+IncludeTexts collect_includes(std::span<const ShaderSource> sources, std::span<const std::filesystem::path> directories,
+                              FileContents& files) {
+  Collector collector(directories, files);
   for (const ShaderSource& source : sources) collector.follow(source.name, source.text);
   return collector.take();
 }

@@ -38,10 +38,16 @@ std::vector<std::filesystem::path> folders_for(std::span<const std::string> file
   return folders;
 }
 
-ShaderSource load_shader(const std::string& file, std::span<const std::filesystem::path> directories) {
+ShaderSource load_shader(const std::string& file, std::span<const std::filesystem::path> directories,
+                         FileContents& files) {
   const Stage stage = stage_of(file);
   const std::filesystem::path path = find_file(file, directories);
-  if (!path.empty()) return {.name = shown_name(file), .text = read_text_file(path), .stage = stage};
+  if (!path.empty()) {
+    ShaderSource source{.name = shown_name(file), .text = read_text_file(path), .stage = stage};
+    note_file(file, directories, source.text, files);
+    return source;
+  }
+  note_file(file, directories, std::nullopt, files);
   std::vector<std::string> searched;
   for (const auto& directory : directories) searched.push_back(in_quotes(directory.string()));
   throw Error(ExitCode::invalid_input, "there is no shader " + in_quotes(file),
@@ -73,6 +79,7 @@ std::string to_string(Stage stage) {
 ShaderCompiler::ShaderCompiler(ShaderCompilerOptions options) : options_(std::move(options)) {}
 
 std::vector<SpirvModule> ShaderCompiler::compile(std::span<const ShaderSource> stages, const ShaderDefines& defines) {
+  files_read_.clear();
   return compile_with(stages, defines, options_.include_directories);
 }
 
@@ -80,7 +87,7 @@ std::vector<SpirvModule> ShaderCompiler::compile_with(std::span<const ShaderSour
                                                       const ShaderDefines& defines,
                                                       std::span<const std::filesystem::path> folders) {
   require_one_pipeline(stages);
-  const IncludeTexts includes = collect_includes(stages, folders);
+  const IncludeTexts includes = collect_includes(stages, folders, files_read_);
   const CacheKey key = cache_key(stages, defines, includes, compiler_identity());
   if (!options_.cache_directory.empty()) {
     CacheLookup lookup = read_cache(options_.cache_directory, key, stages);
@@ -105,19 +112,21 @@ std::vector<SpirvModule> ShaderCompiler::compile_with(std::span<const ShaderSour
 
 std::vector<SpirvModule> ShaderCompiler::compile_files(std::span<const std::string> files,
                                                        const ShaderDefines& defines) {
+  files_read_.clear();
   const std::vector<std::filesystem::path> folders = folders_for(files, options_.include_directories);
   std::vector<ShaderSource> sources;
-  for (const std::string& file : files) sources.push_back(load_shader(file, folders));
+  for (const std::string& file : files) sources.push_back(load_shader(file, folders, files_read_));
   return compile_with(sources, defines, folders);
 }
 
 std::string ShaderCompiler::declaration(std::span<const std::string> files, std::string_view name) const {
   const std::vector<std::filesystem::path> folders = folders_for(files, options_.include_directories);
+  FileContents ignored;
   std::vector<ShaderSource> sources;
-  for (const std::string& file : files) sources.push_back(load_shader(file, folders));
+  for (const std::string& file : files) sources.push_back(load_shader(file, folders, ignored));
   for (const ShaderSource& source : sources)
     if (const auto line = declaration_line(source.text, name)) return source.name + ":" + std::to_string(*line);
-  for (const auto& [file, text] : collect_includes(sources, folders))
+  for (const auto& [file, text] : collect_includes(sources, folders, ignored))
     if (const auto line = declaration_line(text, name)) return file + ":" + std::to_string(*line);
   std::vector<std::string> names;
   for (const ShaderSource& source : sources) names.push_back(source.name);

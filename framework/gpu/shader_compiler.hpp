@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "framework/base/file_watch.hpp"
+
 namespace lightloom::gpu {
 
 enum class Stage : uint8_t { vertex, fragment, compute };
@@ -59,6 +61,9 @@ class ShaderCompiler {
   /// Where the files, or what they include, declare a name of their interface: "file:line"; their names if none does.
   [[nodiscard]] std::string declaration(std::span<const std::string> files, std::string_view name) const;
   [[nodiscard]] const CompileStatistics& statistics() const { return statistics_; }
+  /// What the last of these calls read, whether or not it threw: shaders and includes in the include directories, and
+  /// that those searched before had none of that name.
+  [[nodiscard]] const FileContents& files_read() const { return files_read_; }
 
  private:
   [[nodiscard]] std::vector<SpirvModule> compile_with(std::span<const ShaderSource> stages,
@@ -67,6 +72,7 @@ class ShaderCompiler {
 
   ShaderCompilerOptions options_;
   CompileStatistics statistics_;
+  FileContents files_read_;
 };
 
 }  // namespace lightloom::gpu

@@ -49,11 +49,11 @@ Executor::Executor(gpu::Device& device, Plan plan, const scene::Scene& scene, co
               .ray_queries = needs_ray_queries(plan_.graph)}),
       memo_(options.memo ? options.memo : std::make_shared<SceneMemo>()),
       placeholders_(device),
-      shaders_(device, {.include_directories = options.shaders.sources, .cache_directory = options.shaders.cache}),
+      shaders_(options.library ? options.library : make_library(device, options.shaders)),
       descriptors_(device),
       timestamps_(device, options.time_passes ? query_count(plan_.steps.size() + plan_.once.size()) : 0) {
   if (options.poison) poison_.emplace(device_, plan_, *options.poison);
-  if (has_scans(plan_)) scan_.emplace(device_, plan_, shaders_, options.poison);
+  if (has_scans(plan_)) scan_.emplace(device_, plan_, *shaders_, options.poison);
   device_.run_commands([&](VkCommandBuffer commands) {
     images_.record_initialisation(commands);
     if (poison_) poison_->record_initialisation(commands, images_);
@@ -222,7 +222,7 @@ void Executor::record_pass(VkCommandBuffer commands, const GraphPass& pass) {
                          .frame_count = frame_count_,
                          .scene = &scene_.bindings(),
                          .placeholders = &placeholders_,
-                         .shaders = &shaders_,
+                         .shaders = shaders_.get(),
                          .descriptors = &descriptors_,
                          .watch = &watch_},
                         plan_.graph, pass);

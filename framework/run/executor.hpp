@@ -40,6 +40,9 @@ struct ExecutorOptions {
   bool time_passes = true;
   /// What host passes derive from the scene, to be shared by executors on the same one; empty: the executor's own.
   std::shared_ptr<SceneMemo> memo = nullptr;
+  /// Shaders and pipelines, to be shared by executors on the same device with the same `shaders`; empty: the executor's
+  /// own.
+  std::shared_ptr<ShaderLibrary> library = nullptr;
   bool single_texels = false;  ///< of what is read back one texel each comes to the host: Executor::look_at
 };
 
@@ -125,7 +128,7 @@ class Executor {
   SceneResources scene_;
   std::shared_ptr<SceneMemo> memo_;
   Placeholders placeholders_;
-  ShaderLibrary shaders_;
+  std::shared_ptr<ShaderLibrary> shaders_;
   std::optional<Poison> poison_;
   std::optional<ValueScan> scan_;  ///< where the plan has any
   gpu::DescriptorAllocator descriptors_;

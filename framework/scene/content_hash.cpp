@@ -7,6 +7,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
 #include "framework/base/hash.hpp"
 
@@ -40,10 +41,16 @@ std::string_view json_of(std::string_view bytes) {
 
 class ContentHasher {
  public:
+  /// With `files`, they are hashed one by one instead of together.
+  explicit ContentHasher(FileContents* files = nullptr) : files_(files) {}
+
   void add(const std::filesystem::path& file) {
     if (!seen_.insert(file.lexically_normal()).second) return;
     const std::string bytes = read_text_file(file);
-    hasher_.text(bytes);
+    if (files_ != nullptr)
+      files_->insert_or_assign(file, hash_text(bytes));
+    else
+      hasher_.text(bytes);
     add_named(nlohmann::ordered_json::parse(json_of(bytes), nullptr, false), file.parent_path());
   }
   [[nodiscard]] uint64_t value() const { return hasher_.value(); }
@@ -65,6 +72,7 @@ class ContentHasher {
     }
   }
 
+  FileContents* files_;
   Hasher hasher_;
   std::set<std::filesystem::path> seen_;
 };
@@ -75,6 +83,16 @@ uint64_t content_hash(const std::filesystem::path& scene_file) {
   ContentHasher hasher;
   hasher.add(scene_file);
   return hasher.value();
+}
+
+FileContents content_files(const std::filesystem::path& scene_file) {
+  FileContents files{{scene_file, std::nullopt}};
+  try {
+    ContentHasher(&files).add(scene_file);
+  } catch (const Error&) {
+    // What cannot be read is there as empty, or not at all.
+  }
+  return files;
 }
 
 }  // namespace lightloom::scene

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "framework/base/hash.hpp"
 #include "framework/gpu/reflection.hpp"
 #include "tests/gpu/gpu_support.hpp"
 
@@ -32,6 +33,29 @@ TEST(ShaderCompiler, MakesSpirv16) {
   ASSERT_GT(modules[0].words.size(), 5u);
   EXPECT_EQ(modules[0].words[0], 0x07230203u);
   EXPECT_EQ(modules[0].words[1], 0x00010600u);
+}
+
+TEST(ShaderCompiler, NotesWhatItReadAndWhereItLookedInVain) {
+  const TemporaryFolder own;
+  const TemporaryFolder program;
+  const std::string shader = "#include \"lib/a.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() { f(); }\n";
+  program.write("x.comp", shader);
+  program.write("lib/a.glsl", "#include \"b.glsl\"\nvoid f() {}\n");
+  own.write("b.glsl", "// nothing\n");
+  ShaderCompiler compiler({.include_directories = {own.path(), program.path()}, .cache_directory = {}});
+  const std::vector<std::string> files{"x.comp"};
+  static_cast<void>(compiler.compile_files(files));
+  const FileContents expected{{own.path() / "x.comp", std::nullopt},
+                              {program.path() / "x.comp", content_of(program.path() / "x.comp")},
+                              {own.path() / "lib/a.glsl", std::nullopt},
+                              {program.path() / "lib/a.glsl", content_of(program.path() / "lib/a.glsl")},
+                              {own.path() / "b.glsl", content_of(own.path() / "b.glsl")}};
+  EXPECT_EQ(compiler.files_read(), expected);
+  EXPECT_EQ(expected.at(program.path() / "x.comp"), hash_text(shader));
+  program.write("x.comp", "#include \"gone.glsl\"\nvoid main() { oops; }\n");
+  EXPECT_THROW(static_cast<void>(compiler.compile_files(files)), Error);
+  EXPECT_TRUE(compiler.files_read().contains(program.path() / "gone.glsl")) << "so that making it is noticed";
+  EXPECT_FALSE(compiler.files_read().contains(own.path() / "b.glsl")) << "of the last call alone";
 }
 
 TEST(ShaderCompiler, IsDeterministic) {
