@@ -7,6 +7,7 @@
 #include "framework/cli/commands.hpp"
 #include "framework/cli/messages.hpp"
 #include "framework/cli/picture_options.hpp"
+#include "framework/cli/watch.hpp"
 #include "framework/run/render.hpp"
 
 namespace lightloom::cli {
@@ -20,6 +21,7 @@ struct RenderOptions {
   std::optional<std::string> output_frames;
   uint32_t checkpoint_every = 0;
   bool resume = false;
+  bool watch = false;
   std::string device;
   bool no_alias = false;
   bool no_times = false;
@@ -80,6 +82,11 @@ ExitCode render(const RenderOptions& options, const CommandContext& context,
                 const std::vector<std::string>& arguments) {
   const run::RenderRequest request = make_request(options, context, arguments);
   const uint32_t frames = request.last_frame - request.first_frame + 1;
+  if (options.watch && (options.checkpoint_every > 0 || options.resume))
+    throw Error(ExitCode::usage,
+                "option '--watch' renders from the first frame again, so it goes without '--checkpoint' "
+                "and '--resume'");
+  if (options.watch) watch(request, context, [&](const run::RenderSummary& summary) { report(summary, context.out); });
   Diagnostics diagnostics;
   run::RenderSummary summary;
   bool rendered = false;
@@ -137,6 +144,9 @@ void add_render_command(Command& program, const CommandContext& context, const s
             "Go on from the run folder's checkpoint, if there is one: the pictures are those of a run that never "
             "stopped")
       .group("Long runs");
+  command.flag("--watch", options->watch,
+               "Render again whenever the graph, a shader, the scene or the camera path changes, until Ctrl-C; what is "
+               "wrong with them is said, and the pictures before stay");
   command.option("--device", options->device, "Device by index or part of its name; 'lightloom devices' lists them")
       .placeholder("NAME");
   command.flag(

@@ -22,8 +22,8 @@ LinkEnvironment link_environment(const scene::Scene* scene) {
 
 std::optional<Graph> link_text(const std::string& text, const std::filesystem::path& file, const PassRegistry& registry,
                                const LinkOptions& options, const scene::Scene* scene, Diagnostics& diagnostics,
-                               const std::optional<ShaderFolders>& shaders) {
-  const std::optional<GraphSpec> spec = parse_graph_text(text, file, registry, shaders, diagnostics);
+                               const std::optional<ShaderFolders>& shaders, FileContents* files_read) {
+  const std::optional<GraphSpec> spec = parse_graph_text(text, file, registry, shaders, diagnostics, files_read);
   if (!spec) return std::nullopt;
   return link(*spec, registry, options, link_environment(scene), diagnostics);
 }

@@ -42,12 +42,14 @@ std::map<std::string, std::string> connected_bundles(const GraphSpec& spec, cons
 /// Makes the types of one graph; each shader is compiled once.
 class TypeMaker {
  public:
-  TypeMaker(GraphSpec& spec, const PassRegistry& registry, const ShaderFolders& shaders, Diagnostics& diagnostics)
+  TypeMaker(GraphSpec& spec, const PassRegistry& registry, const ShaderFolders& shaders, Diagnostics& diagnostics,
+            FileContents* files_read)
       : spec_(spec),
         registry_(registry),
         folders_(search_folders(spec, shaders)),
         compiler_({.include_directories = shaders.sources, .cache_directory = shaders.cache}),
-        diagnostics_(diagnostics) {}
+        diagnostics_(diagnostics),
+        files_read_(files_read) {}
 
   void run() {
     for (PassSpec& pass : spec_.passes)
@@ -61,16 +63,33 @@ class TypeMaker {
       const ComputeShader shader = compile(written.text);
       std::optional<PassType> type =
           make_compute_type({pass, spec_.params, connected_bundles(spec_, pass, registry_)}, shader, diagnostics_);
+      note_compiled();
       if (!type) return;
       // The rules for tables of pass types hold for it as well.
       PassRegistry().add(*type);
       pass.own_type = std::make_shared<const PassType>(std::move(*type));
     } catch (const Error& error) {
+      note_compiled();
       diagnostics_.error("shader-error", written.where, "pass '" + pass.name + "': " + error.what(), error.hint());
     }
   }
 
+  /// Before it is read, so that a change in between is taken for one.
+  void note_search(const std::string& name) {
+    if (files_read_ == nullptr) return;
+    for (const fs::path& folder : folders_) {
+      const std::optional<uint64_t> contents = content_of(folder / name);
+      files_read_->insert_or_assign(folder / name, contents);
+      if (contents) return;
+    }
+  }
+
+  void note_compiled() {
+    if (files_read_ != nullptr) files_read_->insert(compiler_.files_read().begin(), compiler_.files_read().end());
+  }
+
   ComputeShader compile(const std::string& name) {
+    note_search(name);
     const fs::path file = gpu::find_file(name, folders_);
     if (file.empty()) {
       std::vector<std::string> searched;
@@ -95,6 +114,7 @@ class TypeMaker {
   std::vector<fs::path> folders_;
   gpu::ShaderCompiler compiler_;
   Diagnostics& diagnostics_;
+  FileContents* files_read_;
   std::map<std::string, gpu::ShaderProgram> programs_;
 };
 
@@ -106,15 +126,16 @@ bool has_compute_passes(const GraphSpec& spec) {
 }  // namespace
 
 void make_compute_types(GraphSpec& spec, const PassRegistry& registry, const ShaderFolders& shaders,
-                        Diagnostics& diagnostics) {
-  if (has_compute_passes(spec)) TypeMaker(spec, registry, shaders, diagnostics).run();
+                        Diagnostics& diagnostics, FileContents* files_read) {
+  if (has_compute_passes(spec)) TypeMaker(spec, registry, shaders, diagnostics, files_read).run();
 }
 
 std::optional<GraphSpec> parse_graph_text(const std::string& text, const fs::path& file, const PassRegistry& registry,
-                                          const std::optional<ShaderFolders>& shaders, Diagnostics& diagnostics) {
+                                          const std::optional<ShaderFolders>& shaders, Diagnostics& diagnostics,
+                                          FileContents* files_read) {
   std::optional<GraphSpec> spec = parse_graph(text, file.string(), diagnostics);
   if (spec && has_compute_passes(*spec))
-    make_compute_types(*spec, registry, shaders ? *shaders : default_shader_folders(), diagnostics);
+    make_compute_types(*spec, registry, shaders ? *shaders : default_shader_folders(), diagnostics, files_read);
   return spec;
 }
 

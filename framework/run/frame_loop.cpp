@@ -57,8 +57,10 @@ class FrameLoop {
     const std::shared_ptr<Checkpoint> checkpoint = save();
     if (!checkpoint && !frame.wants.outputs && !frame.wants.captures) return;
     writing_.add([this, checkpoint, frame = std::move(frame)] {
+      if (!std::exchange(written_, true) && options_.before_first) options_.before_first();
       const FrameResult result = executor_.fetch(frame);
       folder_.write_frame(executor_.plan().graph, result, options_.describe(result));
+      if (options_.on_written) options_.on_written(result.frame);
       if (!checkpoint) return;
       folder_.add_file(checkpoint_file());
       checkpoint->folder = folder_.state();
@@ -80,6 +82,7 @@ class FrameLoop {
   RunProgress& progress_;
   const FrameLoopOptions& options_;
   Clock::time_point started_;
+  bool written_ = false;  ///< something; of the writing thread
   BackgroundJobs writing_;
 };
 

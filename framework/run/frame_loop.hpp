@@ -27,6 +27,8 @@ struct FrameLoopOptions {
   /// yes.
   std::function<bool(const FrameResult&)> go_on_after;
   FrameCallback on_frame;
+  std::function<void()> before_first;              ///< before the first file is written, on the thread that writes
+  std::function<void(uint32_t frame)> on_written;  ///< when a frame's files are whole, on the thread that writes
 };
 
 /// Renders the frames that `progress` lacks, or those up to the one after which it is not to go on, and writes their

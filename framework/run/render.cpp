@@ -1,5 +1,6 @@
 #include "framework/run/render.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -124,7 +125,39 @@ RunFolder open_folder(const RenderRequest& request, const std::optional<Checkpoi
   return {request.out, request.dump_format, checkpoint->folder};
 }
 
-FrameLoopOptions loop_options(const Run& run, RunChecks& checks, const FrameCallback& on_frame) {
+ExecutorOptions executor_options(const Run& run, const std::shared_ptr<SceneMemo>& memo,
+                                 const std::shared_ptr<ShaderLibrary>& library) {
+  const RenderRequest& request = run.request;
+  return with_checks({.shaders = request.shaders,
+                      .camera = request.camera,
+                      .camera_path = run.path,
+                      .seed = request.seed,
+                      .frames_per_second = request.frames_per_second,
+                      .frozen_time = request.frozen_time,
+                      .share_memory = request.share_memory,
+                      .time_passes = request.time_passes,
+                      .memo = memo,
+                      .library = library},
+                     request.checks);
+}
+
+Json plan_of(const Executor& executor, const gpu::Device& device) {
+  PlanFacts facts;
+  facts.memory = {memory_needs(device, executor.plan().graph), executor.memory_sharing()};
+  return plan_json(executor.plan(), facts);
+}
+
+/// What a run writes before its first frame: the plan, and which triangles move.
+std::function<void()> opening_files(const Run& run, const Executor& executor, RunFolder& folder) {
+  const bool captures = !executor.plan().graph.captures.empty();
+  return [&run, &folder, captures, plan = plan_of(executor, run.device)] {
+    folder.write_plan(plan);
+    if (captures) folder.write_moving_triangles(run.scene);
+  };
+}
+
+FrameLoopOptions loop_options(const Run& run, const Executor& executor, RunChecks& checks, const RunProgress& progress,
+                              RunFolder& folder, const RenderEvents& events) {
   const RenderRequest& request = run.request;
   return {
       .first_frame = request.first_frame,
@@ -139,7 +172,9 @@ FrameLoopOptions loop_options(const Run& run, RunChecks& checks, const FrameCall
             checks.add(frame);
             return !checks.stop();
           },
-      .on_frame = on_frame};
+      .on_frame = events.on_frame,
+      .before_first = progress.frames() == 0 ? opening_files(run, executor, folder) : nullptr,
+      .on_written = events.on_written};
 }
 
 std::vector<std::string> validation_warnings(const gpu::Device& device) {
@@ -147,12 +182,6 @@ std::vector<std::string> validation_warnings(const gpu::Device& device) {
   for (const gpu::ValidationMessage& message : device.validation_messages())
     warnings.push_back("validation: " + message.text);
   return warnings;
-}
-
-Json plan_of(const Executor& executor, const gpu::Device& device) {
-  PlanFacts facts;
-  facts.memory = {memory_needs(device, executor.plan().graph), executor.memory_sharing()};
-  return plan_json(executor.plan(), facts);
 }
 
 /// The pictures a person would open: 8-bit images, else every output of the frames.
@@ -163,64 +192,116 @@ std::vector<std::filesystem::path> pictures(const RunFolder& folder) {
   return images;
 }
 
+void summarise(const Run& run, const Executor& executor, const RunChecks& checks, const RunFolder& folder,
+               const RunProgress& progress, RenderSummary& summary) {
+  summary.folder = folder.path();
+  summary.images = pictures(folder);
+  summary.warnings = run.scene.warnings;
+  for (const std::vector<std::string>& more :
+       {executor.scene_warnings(), checks.warnings(), validation_warnings(run.device)})
+    summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
+  summary.failures = checks.failures();
+  summary.frames = progress.frames();
+  summary.milliseconds_per_frame = median(progress.wall_milliseconds);
+}
+
 }  // namespace
 
-bool render(const RenderRequest& request, const PassRegistry& registry, const FrameCallback& on_frame,
-            Diagnostics& diagnostics, RenderSummary& summary) {
-  const scene::Scene scene = scene::load_scene(request.scene);
+/// The scene, for as long as no file of it changes.
+struct Renderer::LoadedScene {
+  FileContents files;
+  scene::Scene scene;
+  std::string hash;
+  std::shared_ptr<SceneMemo> memo = std::make_shared<SceneMemo>();
+};
+
+Renderer::Renderer(const PassRegistry& registry) : registry_(registry) {}
+Renderer::~Renderer() = default;
+
+/// What is read is noted before, so that a change in between is taken for one.
+const std::filesystem::path& Renderer::noted(const std::filesystem::path& file) {
+  files_.insert_or_assign(file, content_of(file));
+  return file;
+}
+
+void Renderer::load(const RenderRequest& request) {
+  if (scene_) return;
+  FileContents files = scene::content_files(request.scene);
+  files_.insert(files.begin(), files.end());
+  scene_ = std::make_unique<LoadedScene>(LoadedScene{.files = std::move(files),
+                                                     .scene = scene::load_scene(request.scene),
+                                                     .hash = hex(scene::content_hash(request.scene))});
+}
+
+FileContents Renderer::files_read() const {
+  FileContents files = files_;
+  if (scene_) files.insert(scene_->files.begin(), scene_->files.end());
+  if (library_) files.merge(library_->files_read());
+  return files;
+}
+
+void Renderer::forget(const std::vector<std::filesystem::path>& changed) {
+  if (library_) library_->forget(changed);
+  if (scene_ && std::any_of(changed.begin(), changed.end(),
+                            [&](const std::filesystem::path& file) { return scene_->files.contains(file); }))
+    scene_.reset();
+}
+
+bool Renderer::render(const RenderRequest& request, const RenderEvents& events, Diagnostics& diagnostics,
+                      RenderSummary& summary) {
+  files_.clear();
+  const std::filesystem::path& graph_file = noted(request.graph);
   std::optional<scene::CameraPath> path;
-  if (!request.camera_path.empty()) path = scene::read_camera_path(request.camera_path);
-  const std::string graph_text = read_text_file(request.graph);
+  if (!request.camera_path.empty()) path = scene::read_camera_path(noted(request.camera_path));
+  load(request);
+  const scene::Scene& scene = scene_->scene;
+  const std::string graph_text = read_text_file(graph_file);
   const std::optional<Graph> graph =
-      link_text(graph_text, request.graph, registry, request.link, &scene, diagnostics, request.shaders);
+      link_text(graph_text, request.graph, registry_, request.link, &scene, diagnostics, request.shaders, &files_);
   if (!graph) return false;
   CompileOptions compile_options = request.compile;
   compile_options.scan = compile_options.scan || request.checks.any();
   Plan plan = compile(*graph, compile_options);
-  gpu::Device device(request.device);
+  if (!device_) device_ = std::make_unique<gpu::Device>(request.device);
+  if (!library_) library_ = make_library(*device_, request.shaders);
+  device_->clear_validation_messages();
   Run run{.request = request,
           .graph_text = graph_text,
           .scene = scene,
           .path = path,
-          .scene_hash = hex(scene::content_hash(request.scene)),
-          .device = device,
+          .scene_hash = scene_->hash,
+          .device = *device_,
           .total = request.last_frame - request.first_frame + 1,
           .identity = {}};
   run.identity = identity_of(run, plan);
   const std::optional<Checkpoint> checkpoint = find_checkpoint(run);
-  const ExecutorOptions options = with_checks({.shaders = request.shaders,
-                                               .camera = request.camera,
-                                               .camera_path = path,
-                                               .seed = request.seed,
-                                               .frames_per_second = request.frames_per_second,
-                                               .frozen_time = request.frozen_time,
-                                               .share_memory = request.share_memory,
-                                               .time_passes = request.time_passes,
-                                               .memo = std::make_shared<SceneMemo>()},
-                                              request.checks);
-  RunChecks checks(request.checks, device, plan, scene, options);
-  Executor executor(device, std::move(plan), scene, options);
+  const ExecutorOptions options = executor_options(run, scene_->memo, library_);
+  RunChecks checks(request.checks, *device_, plan, scene, options);
+  Executor executor(*device_, std::move(plan), scene, options);
   if (checkpoint) {
     executor.restore(checkpoint->state);
     checks.resume(checkpoint->state);
   }
   RunFolder folder = open_folder(request, checkpoint);
-  if (!checkpoint) folder.write_plan(plan_of(executor, device));
+  folder.replace(broken_off_);
   RunProgress progress = checkpoint ? checkpoint->progress : RunProgress{};
   summary.frames_resumed = progress.frames();
-  if (progress.frames() == 0 && !executor.plan().graph.captures.empty()) folder.write_moving_triangles(scene);
-  render_frames(executor, folder, progress, loop_options(run, checks, on_frame));
-  summary.folder = folder.path();
-  summary.images = pictures(folder);
-  summary.warnings = scene.warnings;
-  for (const std::vector<std::string>& more :
-       {executor.scene_warnings(), checks.warnings(), validation_warnings(device)})
-    summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
-  summary.failures = checks.failures();
-  summary.frames = progress.frames();
-  summary.milliseconds_per_frame = median(progress.wall_milliseconds);
+  try {
+    render_frames(executor, folder, progress, loop_options(run, executor, checks, progress, folder, events));
+  } catch (...) {
+    broken_off_ = folder.leftovers();
+    throw;
+  }
+  summarise(run, executor, checks, folder, progress, summary);
   folder.finish(run_record(run, executor, checks, progress, summary.warnings));
+  broken_off_.clear();
+  library_->drop_unused();
   return true;
+}
+
+bool render(const RenderRequest& request, const PassRegistry& registry, const FrameCallback& on_frame,
+            Diagnostics& diagnostics, RenderSummary& summary) {
+  return Renderer(registry).render(request, {.on_frame = on_frame, .on_written = {}}, diagnostics, summary);
 }
 
 }  // namespace lightloom::run

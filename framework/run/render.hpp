@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "framework/base/diagnostics.hpp"
+#include "framework/base/file_watch.hpp"
 #include "framework/gpu/device.hpp"
 #include "framework/graph/link.hpp"
 #include "framework/graph/pass_type.hpp"
@@ -15,6 +17,7 @@
 #include "framework/run/plugins.hpp"
 #include "framework/run/run_folder.hpp"
 #include "framework/run/shader_folders.hpp"
+#include "framework/run/shader_library.hpp"
 
 namespace lightloom::run {
 
@@ -56,6 +59,43 @@ struct RenderSummary {
   uint32_t frames = 0;                        ///< that are there: fewer than asked for where a check ended the render
   uint32_t frames_resumed = 0;                ///< of an interrupted run that were there already
   double milliseconds_per_frame = 0;          ///< median wall time
+};
+
+struct RenderEvents {
+  FrameCallback on_frame;
+  std::function<void(uint32_t frame)> on_written;  ///< when a frame's files are whole, on another thread
+};
+
+/// Renders requests one after another, for which it keeps the device, the scene, and compiled shaders with their
+/// pipelines. The requests have the same device, shader folders, scene file and run folder; the files themselves may
+/// change, and `forget` is told which did. The bits are those of `render`.
+class Renderer {
+ public:
+  /// `registry` outlives it.
+  explicit Renderer(const PassRegistry& registry);
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+  ~Renderer();
+
+  /// As `render`. When it fails before the first frame has been rendered, the run folder is as it was.
+  bool render(const RenderRequest& request, const RenderEvents& events, Diagnostics& diagnostics,
+              RenderSummary& summary);
+  /// What the last request was made of, as far as it came: graph, camera path, scene, shaders with their includes.
+  [[nodiscard]] FileContents files_read() const;
+  /// These are to be read anew.
+  void forget(const std::vector<std::filesystem::path>& changed);
+
+ private:
+  struct LoadedScene;
+  const std::filesystem::path& noted(const std::filesystem::path& file);
+  void load(const RenderRequest& request);
+
+  const PassRegistry& registry_;
+  FileContents files_;  ///< graph, camera path, and the scene's when it was loaded last
+  std::unique_ptr<LoadedScene> scene_;
+  std::unique_ptr<gpu::Device> device_;
+  std::shared_ptr<ShaderLibrary> library_;
+  std::vector<std::filesystem::path> broken_off_;  ///< files of a render that ended by an exception
 };
 
 /// Renders the frames one after another and writes the run folder (design, section 5). Problems of the graph file or of

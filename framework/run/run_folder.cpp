@@ -109,7 +109,7 @@ std::string to_string(DumpFormat format) {
 
 RunFolder::RunFolder(fs::path folder, DumpFormat dump_format) : folder_(std::move(folder)), dump_format_(dump_format) {
   make_folder(folder_);
-  remove_earlier_run();
+  find_earlier_run();
   remove_half_written();
 }
 
@@ -145,27 +145,48 @@ void RunFolder::remove_half_written() const {
   for (const fs::path& file : found) fs::remove(file, ignored);
 }
 
-void RunFolder::remove_earlier_run() const {
-  const fs::path record_file = folder_ / "run.json";
-  std::ifstream stream(record_file);
+void RunFolder::find_earlier_run() {
+  std::ifstream stream(folder_ / "run.json");
   if (!stream) return;
   const nlohmann::json record = nlohmann::json::parse(stream, nullptr, false);
   if (!record.is_object() || !record.contains("lightloom") || !record.contains("files")) return;
+  replaces_run_ = true;
+  for (const nlohmann::json& entry : record["files"])
+    if (entry.is_string() && stays_inside(entry.get<std::string>())) earlier_.emplace_back(entry.get<std::string>());
+}
+
+void RunFolder::begin_writing() {
+  if (!replaces_run_) return;
   std::error_code ignored;
-  fs::remove(record_file, ignored);  // first: without it the folder does not claim to be a finished run
-  for (const nlohmann::json& entry : record["files"]) {
-    if (!entry.is_string()) continue;
-    const fs::path relative = entry.get<std::string>();
-    if (!stays_inside(relative)) continue;
-    fs::remove(folder_ / relative, ignored);
-    fs::remove((folder_ / relative).parent_path(), ignored);  // goes only when it is empty
+  fs::remove(folder_ / "run.json", ignored);  // first: without it the folder does not claim to be a finished run
+  replaces_run_ = false;
+}
+
+void RunFolder::remove_earlier_run() {
+  std::error_code ignored;
+  for (const fs::path& file : earlier_) {
+    if (std::find(files_.begin(), files_.end(), file) != files_.end()) continue;
+    fs::remove(folder_ / file, ignored);
+    fs::remove((folder_ / file).parent_path(), ignored);  // goes only when it is empty
   }
+  earlier_.clear();
+}
+
+void RunFolder::replace(const std::vector<fs::path>& broken_off) {
+  earlier_.insert(earlier_.end(), broken_off.begin(), broken_off.end());
+}
+
+std::vector<fs::path> RunFolder::leftovers() const {
+  std::vector<fs::path> files = earlier_;
+  files.insert(files.end(), files_.begin(), files_.end());
+  return files;
 }
 
 void RunFolder::write_image(fs::path relative, const image::HostImage& image,
                             const std::vector<std::string>& channel_names) {
   const fs::path file = folder_ / relative;
   make_folder(file.parent_path());
+  begin_writing();
   if (relative.extension() == ".npy")
     image::write_npy(file, image);
   else if (relative.extension() == ".png")
@@ -177,6 +198,7 @@ void RunFolder::write_image(fs::path relative, const image::HostImage& image,
 
 void RunFolder::write_json(const fs::path& relative, const nlohmann::ordered_json& json) {
   make_folder((folder_ / relative).parent_path());
+  begin_writing();
   write_file_atomically(folder_ / relative, json.dump(2) + "\n");
   files_.push_back(relative);
 }
@@ -200,6 +222,7 @@ void RunFolder::write_frame(const Graph& graph, const FrameResult& result, const
         output.image, image::default_channel_names(desc, output.name, {}));
   }
   if (!result.captures.empty()) write_dumps(graph, result, conditions);
+  remove_earlier_run();
 }
 
 void RunFolder::write_dumps(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions) {
@@ -223,6 +246,8 @@ void RunFolder::write_dumps(const Graph& graph, const FrameResult& result, const
 }
 
 void RunFolder::finish(nlohmann::ordered_json record) {
+  begin_writing();
+  remove_earlier_run();
   if (!dumped_frames_.empty())
     write_json(fs::path("dumps") / "index.json",
                {{"values", dumped_values_}, {"moving", moving_}, {"frames", dumped_frames_}});

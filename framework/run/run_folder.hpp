@@ -21,8 +21,10 @@ enum class DumpFormat : uint8_t { exr, npy };
 ///   of them is (docs/buffers.md)
 ///   checkpoint/        what --resume goes on from
 ///   run.json           provenance and times, and the list of all files of the run
-/// Each file appears whole or not at all. Files of an earlier run in the same folder, which its run.json lists, are
-/// removed first, so that no stale frame stays among new ones.
+/// Each file appears whole or not at all. Files of an earlier run in the same folder, which its run.json lists, stay
+/// until there is something to take their place: run.json goes with the first file that is written, the rest once the
+/// first frame is whole. So a run that fails before that leaves them as they were, and no stale frame stays among new
+/// ones.
 class RunFolder {
  public:
   /// Throws Error(run_failed) where the folder cannot be made or written.
@@ -45,13 +47,19 @@ class RunFolder {
   [[nodiscard]] nlohmann::ordered_json state() const;
   /// Lists a file that something else wrote into the folder.
   void add_file(const std::filesystem::path& relative);
+  /// Files of a run that was broken off, relative to the folder: they go like those of an earlier run.
+  void replace(const std::vector<std::filesystem::path>& broken_off);
+  /// What this run would leave behind if it were broken off now.
+  [[nodiscard]] std::vector<std::filesystem::path> leftovers() const;
 
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
   /// Files written so far, relative to the folder.
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:
-  void remove_earlier_run() const;
+  void find_earlier_run();
+  void begin_writing();
+  void remove_earlier_run();
   void remove_half_written() const;
   void write_dumps(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions);
   void write_json(const std::filesystem::path& relative, const nlohmann::ordered_json& json);
@@ -60,6 +68,8 @@ class RunFolder {
 
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> files_;
+  std::vector<std::filesystem::path> earlier_;  ///< files of the run before that are still there
+  bool replaces_run_ = false;                   ///< the run.json of the run before is still there
   DumpFormat dump_format_;
   nlohmann::ordered_json dumped_values_ = nlohmann::ordered_json::object();  ///< by name
   nlohmann::ordered_json moving_;                                            ///< null where nothing moves

@@ -93,9 +93,13 @@ TEST_F(RunFolderTest, RemovesTheFilesOfTheRunBeforeAndNoOthers) {
     folder.finish({{"lightloom", "test"}});
   }
   std::ofstream(folder_ / "notes.txt") << "mine";
+  { RunFolder failed(folder_); }
+  EXPECT_TRUE(fs::exists(folder_ / "run.json")) << "a run that writes nothing leaves the one before";
+  EXPECT_TRUE(fs::exists(folder_ / "image.0001.png"));
   RunFolder folder(folder_);
-  EXPECT_FALSE(fs::exists(folder_ / "run.json")) << "a folder whose run is under way must not look finished";
   folder.write_frame({}, outputs_only(0), {});
+  EXPECT_FALSE(fs::exists(folder_ / "run.json")) << "a folder whose run is under way must not look finished";
+  EXPECT_FALSE(fs::exists(folder_ / "image.0001.png")) << "of the run before, when a new frame is there";
   folder.finish({{"lightloom", "test"}});
   EXPECT_TRUE(fs::exists(folder_ / "image.0000.png"));
   EXPECT_FALSE(fs::exists(folder_ / "image.0001.png")) << "a stale frame";
@@ -107,6 +111,7 @@ TEST_F(RunFolderTest, ARecordThatPointsOutsideRemovesNothingThere) {
   std::ofstream(folder_ / "outside.txt") << "mine";
   std::ofstream(folder_ / "run/run.json") << R"({"lightloom": "x", "files": ["../outside.txt", 3]})";
   RunFolder folder(folder_ / "run");
+  folder.finish({{"lightloom", "test"}});
   EXPECT_TRUE(fs::exists(folder_ / "outside.txt"));
 }
 
