@@ -30,7 +30,7 @@ PassType make_test_march() {
                 view_output("hit"), view_output("face")};
   type.params = {
       {"end", ParamType::real, 1e30, 0, 1e30, {}, "voxels", "length of the rays"},
-      {"salt", ParamType::integer, int64_t{0}, {}, {}, {}, "", "of the random numbers"},
+      {"salt", ParamType::integer, int64_t{0}, 0, {}, {}, "", "of the random numbers"},
       {"march", ParamType::choice, std::string("sphere"), {}, {}, {"sphere", "cube_exit", "dda"}, "", "how"}};
   type.record = [](PassContext& context) { context.dispatch({"test_march.comp", context.output_extent("hit"), {}}); };
   return type;

@@ -165,8 +165,8 @@ std::vector<PassType> make_types() {
   types.back().reads = FrameState::time;
   add("stamp", {input("x"), bypassed(output(), "", 5)}, record_stamp);
   add("blank", {output()}, record_blank);
-  // Declared as what a dispatch would do: the recorder has to see that a draw reads it.
-  add("paint", {input("x"), bypassed(output(Access::color_attachment_write), "x")}, record_paint);
+  add("paint", {input("x", Access::fragment_sampled_read), bypassed(output(Access::color_attachment_write), "x")},
+      record_paint);
   add("splat", {input("x", Access::fragment_sampled_read), output(), scratch("hits")}, record_splat);
   add("grow", {input("x"), volume(v)}, dispatch_volume("grow"));
   add("carve", {volume(input("v")), volume(input("old")), bypassed(volume(v), "v")}, dispatch_volume("carve"));
