@@ -222,7 +222,8 @@ void AccessWatch::ends(const Graph& graph, const GraphPass& pass) {
   const std::set<std::string> written = std::exchange(written_, {});
   for (const Use& use : pass.outputs) {
     // What a persistent one holds already may be all that it needs.
-    if (written.contains(use.shader_name) || graph.values[use.value].persistent || !graph.values[use.value].read) continue;
+    if (written.contains(use.shader_name) || graph.values[use.value].persistent || !graph.values[use.value].read)
+      continue;
     throw Error(ExitCode::run_failed,
                 "pass '" + pass.name + "' (" + pass.type->name + ") recorded nothing that writes its output '" +
                     use.port + (use.part.empty() ? "" : "." + use.part) + "'",

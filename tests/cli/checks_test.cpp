@@ -45,14 +45,19 @@ PassType nan_type() {
   return type;
 }
 
-/// Writes nothing.
-PassType lazy_type() {
+/// Writes the left half alone.
+constexpr const char* kLazyShader = R"(#version 460
+layout(local_size_x = 4, local_size_y = 4) in;
+uniform writeonly image2D out_image;
+void main() { imageStore(out_image, ivec2(gl_GlobalInvocationID.xy), vec4(0.0)); }
+)";
+PassType lazy_type(const std::filesystem::path& shader) {
   PassType type;
   type.name = "test_lazy";
   type.doc = "For tests.";
   type.ports = {image_port(Access::compute_storage_write)};
   type.reads = FrameState::time;
-  type.record = [](PassContext& /*context*/) {};
+  type.record = [file = shader.string()](PassContext& context) { context.dispatch({file, {4, 4, 1}, {}}); };
   return type;
 }
 
@@ -60,7 +65,8 @@ class Checks : public ProgramTest {
  protected:
   Checks() {
     registry_.add(nan_type());
-    registry_.add(lazy_type());
+    std::ofstream(folder_ / "lazy.comp") << kLazyShader;
+    registry_.add(lazy_type(folder_ / "lazy.comp"));
   }
 
   int render(const std::string& type, std::vector<std::string> options) {
@@ -117,11 +123,11 @@ TEST_F(Checks, without_them_nothing_is_said) {
 TEST_F(Checks, what_leaves_texels_unwritten_fails_the_render) {
   EXPECT_EQ(render("test_lazy", {"--poison"}), 1);
   EXPECT_EQ(err_,
-            "warning: faulty.image: faulty leaves 32 of 32 texels unwritten, first 0,0; frames 0..3\n"
+            "warning: faulty.image: faulty leaves 16 of 32 texels unwritten, first 4,0; frames 0..3\n"
             "error: the pictures depend on what nobody wrote, or may: faulty.image\n");
   EXPECT_EQ(record()["unwritten"].dump(),
-            R"([{"value":"faulty.image","pass":"faulty","frames":[[0,3]],"unwritten_texels":32,"texels":32,)"
-            R"("first":[0,0]}])");
+            R"([{"value":"faulty.image","pass":"faulty","frames":[[0,3]],"unwritten_texels":16,"texels":32,)"
+            R"("first":[4,0]}])");
   EXPECT_EQ(render("test_nan", {"--poison"}), 0) << err_;
 }
 

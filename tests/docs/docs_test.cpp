@@ -207,8 +207,8 @@ TEST(Docs, every_command_of_the_program_is_documented) {
   const std::string page = read_text_file(kSource / "docs/command_line.md");
   const auto [status, help] = sandbox.run("lightloom --help");
   ASSERT_EQ(status, 0);
-  for (const char* command :
-       {"render", "check", "plan", "passes", "schema", "scene", "brdf", "compare", "study", "new", "devices", "completion"}) {
+  for (const char* command : {"render", "check", "plan", "passes", "schema", "scene", "brdf", "compare", "study", "new",
+                              "devices", "completion"}) {
     EXPECT_THAT(help, ::testing::HasSubstr(std::string("\n  ") + command + " "));
     EXPECT_THAT(page, ::testing::HasSubstr(std::string("lightloom ") + command));
   }

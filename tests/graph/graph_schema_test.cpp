@@ -99,10 +99,9 @@ TEST_F(GraphSchema, RefusesBrokenGraphsByEveryRuleThatASchemaCanSay) {
 
 TEST_F(GraphSchema, RefusesBrokenPassesOfTypeCompute) {
   const fs::path folder_of_bad = source_dir() / "tests/graphs_bad/compute";
-  const std::vector<std::string> answers =
-      check(std::vector<fs::path>{folder_of_bad / "keys.json", folder_of_bad / "sizes.json",
-                                  folder_of_bad / "no_shader.json", folder_of_bad / "other_type.json",
-                                  folder_of_bad / "missing_param.json"});
+  const std::vector<std::string> answers = check(
+      std::vector<fs::path>{folder_of_bad / "keys.json", folder_of_bad / "sizes.json", folder_of_bad / "no_shader.json",
+                            folder_of_bad / "other_type.json", folder_of_bad / "missing_param.json"});
   for (size_t i = 0; i < 4; ++i) EXPECT_NE(answers[i], "yes") << i;
   EXPECT_EQ(answers[4], "yes") << "what params there are, only the shader knows";
 }

@@ -49,7 +49,8 @@ std::vector<Seedling> seedlings() {
   std::vector<std::filesystem::path> files;
   for (const char* folder : {"graphs", "tests/graphs_bad"})
     for (const auto& entry : std::filesystem::directory_iterator(source_dir() / folder))
-      if (entry.path().filename() != "expected.json") files.push_back(entry.path());
+      if (entry.path().extension() == ".json" && entry.path().filename() != "expected.json")
+        files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   std::vector<Seedling> list;
   for (const auto& file : files) list.push_back({read_text_file(file), &real_types()});
