@@ -72,6 +72,14 @@ class GraphReader {
     return {node.string, node.where};
   }
 
+  /// The same, where an empty text would mean nothing.
+  TextSpec read_filled(const JsonNode& node, const std::string& what) {
+    TextSpec text = read_text(node, what);
+    if (node.kind == JsonKind::string && text.text.empty())
+      diagnostics_.error("wrong-type", node.where, what + " is an empty text");
+    return text;
+  }
+
   void read_required(const JsonNode& root, const std::string& key, void (GraphReader::*reader)(const JsonNode&)) {
     const JsonNode* node = root.find(key);
     if (node != nullptr && !expect(*node, JsonKind::object, "'" + key + "'")) return;
@@ -170,7 +178,7 @@ class GraphReader {
     const JsonNode& node = member.value;
     if (!expect(node, JsonKind::object, "a pass")) return pass;
     if (const JsonNode* type = node.find("type")) {
-      pass.type = read_text(*type, "'type'");
+      pass.type = read_filled(*type, "'type'");
     } else {
       diagnostics_.error("missing-key", member.where, "pass " + in_quotes(member.key) + " needs a 'type'");
     }
@@ -195,13 +203,13 @@ class GraphReader {
   ComputeSpec read_compute(const JsonMember& member) {
     ComputeSpec compute;
     if (const JsonNode* shader = member.value.find("shader")) {
-      compute.shader = read_text(*shader, "'shader'");
+      compute.shader = read_filled(*shader, "'shader'");
     } else {
       diagnostics_.error("missing-key", member.where,
                          "pass " + in_quotes(member.key) + " of type 'compute' needs a 'shader'",
                          "\"shader\": \"FILE.comp\", beside the graph file");
     }
-    if (const JsonNode* threads = member.value.find("threads")) compute.threads = read_text(*threads, "'threads'");
+    if (const JsonNode* threads = member.value.find("threads")) compute.threads = read_filled(*threads, "'threads'");
     const JsonNode* outputs = member.value.find("out");
     if (outputs == nullptr || !expect(*outputs, JsonKind::object, "'out'")) return compute;
     for (const JsonMember& output : outputs->members) compute.outputs.push_back(read_compute_output(output));
@@ -215,8 +223,8 @@ class GraphReader {
     const JsonNode& node = member.value;
     if (!expect(node, JsonKind::object, "an output of a pass")) return output;
     check_keys(node, kComputeOutputKeys, "an output of a pass");
-    if (const JsonNode* format = node.find("format")) output.format = read_text(*format, "'format'");
-    if (const JsonNode* size = node.find("size")) output.size = read_text(*size, "'size'");
+    if (const JsonNode* format = node.find("format")) output.format = read_filled(*format, "'format'");
+    if (const JsonNode* size = node.find("size")) output.size = read_filled(*size, "'size'");
     const JsonNode* bypass = node.find("bypass");
     if (bypass != nullptr && bypass->kind == JsonKind::string) {
       output.bypass = TextSpec{bypass->string, bypass->where};
