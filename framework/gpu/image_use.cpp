@@ -116,9 +116,7 @@ std::map<uint32_t, ImageUse> image_uses(std::span<const uint32_t> words) {
   };
   for_each_instruction(words, [&](const Instruction& instruction) {
     const std::span<const uint32_t> operands = instruction.operands;
-    if (instruction.code == SpvOpImageWrite) {
-      note(operands[0], {false, true});
-    } else if (instruction.code == SpvOpAtomicStore) {
+    if (instruction.code == SpvOpImageWrite || instruction.code == SpvOpAtomicStore) {
       note(operands[0], {false, true});
     } else if (is_image_read(instruction.code)) {
       note(operands[2], {true, false});

@@ -253,9 +253,10 @@ EdgeResolver::Ending EdgeResolver::ending_of(const ImageRef& start) {
       ending = {next.state, next.culprit};
     break;
   }
-  for (auto step = way.rbegin(); step != way.rend(); ++step) {
-    ending.age += step->age;
-    endings_[step->image] = ending;
+  std::reverse(way.begin(), way.end());
+  for (const auto& step : way) {
+    ending.age += step.age;
+    endings_[step.image] = ending;
   }
   return ending;
 }
