@@ -144,13 +144,4 @@ std::optional<GraphSpec> read_graph(const fs::path& file, const PassRegistry& re
   return parse_graph_text(read_text_file(file), file, registry, shaders, diagnostics);
 }
 
-std::vector<fs::path> compute_shader_files(const GraphSpec& spec, const ShaderFolders& shaders) {
-  std::vector<fs::path> files;
-  for (const PassSpec& pass : spec.passes)
-    if (pass.compute)
-      if (fs::path file = gpu::find_file(pass.compute->shader.text, search_folders(spec, shaders)); !file.empty())
-        files.push_back(std::move(file));
-  return files;
-}
-
 }  // namespace lightloom::run

@@ -30,8 +30,4 @@ void make_compute_types(GraphSpec& spec, const PassRegistry& registry, const Sha
                                                   const std::optional<ShaderFolders>& shaders,
                                                   Diagnostics& diagnostics);
 
-/// The shader files of its nodes of type `compute`, as far as they are there, without what they include.
-[[nodiscard]] std::vector<std::filesystem::path> compute_shader_files(const GraphSpec& spec,
-                                                                      const ShaderFolders& shaders);
-
 }  // namespace lightloom::run

@@ -84,9 +84,8 @@ TEST_F(NonFiniteTest, ThePassFramePixelAndValueAreNamed) {
   }
 }
 
-TEST_F(NonFiniteTest, WhoHasItFromAnEarlierFrameIsNotNamed) {
-  // Round and round: the NaN of frame 1 stays in the sum for ever, and all its readers have it from there.
-  constexpr const char* kSum = R"({ "lightloom": 1, "name": "sum",
+/// Round and round: a NaN of frame 1 stays in the sum for ever.
+constexpr const char* kSum = R"({ "lightloom": 1, "name": "sum",
     "view": { "width": 20, "height": 9 }, "trace": { "width": 20, "height": 9 },
     "passes": {
       "plant": { "type": "test_plant", "in": { "x": "sum.count@1" },
@@ -94,6 +93,9 @@ TEST_F(NonFiniteTest, WhoHasItFromAnEarlierFrameIsNotNamed) {
       "sum": { "type": "test_counter", "in": { "previous": "plant.y" } }
     },
     "outputs": { "sum": "sum.count" } })";
+
+TEST_F(NonFiniteTest, WhoHasItFromAnEarlierFrameIsNotNamed) {
+  // All readers of the sum have the NaN from there.
   const scene::Scene quad = toy::one_quad();
   const toy::ObservedGraph graph(kSum, types(), quad);
   const std::vector<FrameResult> results = toy::run_frames(graph.plan, quad, 5, toy::observed_options());
@@ -109,14 +111,6 @@ TEST_F(NonFiniteTest, WhoHasItFromAnEarlierFrameIsNotNamed) {
 }
 
 TEST_F(NonFiniteTest, AResumedRunKnowsWhatItStartsFrom) {
-  constexpr const char* kSum = R"({ "lightloom": 1, "name": "sum",
-    "view": { "width": 20, "height": 9 }, "trace": { "width": 20, "height": 9 },
-    "passes": {
-      "plant": { "type": "test_plant", "in": { "x": "sum.count@1" },
-                 "params": { "column": 0, "row": 0, "in_frame": 1, "kind": 0 } },
-      "sum": { "type": "test_counter", "in": { "previous": "plant.y" } }
-    },
-    "outputs": { "sum": "sum.count" } })";
   const scene::Scene quad = toy::one_quad();
   const toy::ObservedGraph graph(kSum, types(), quad);
   Executor first(device(), graph.plan, quad, toy::observed_options());
