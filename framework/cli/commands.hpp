@@ -22,6 +22,7 @@ void add_scene_command(Command& program, const CommandContext& context);
 void add_brdf_command(Command& program, const CommandContext& context);
 void add_compare_command(Command& program, const CommandContext& context);
 void add_study_command(Command& program, const CommandContext& context);
+void add_stability_command(Command& program, const CommandContext& context);
 void add_new_command(Command& program, const CommandContext& context);
 void add_devices_command(Command& program, const CommandContext& context);
 void add_completion_command(Command& program, const CommandContext& context);

@@ -60,6 +60,7 @@ ExitCode run_program(const std::vector<std::string>& arguments, const CommandCon
     add_brdf_command(program, context);
     add_compare_command(program, context);
     add_study_command(program, context);
+    add_stability_command(program, context);
     add_new_command(program, context);
     add_devices_command(program, context);
     add_completion_command(program, context);

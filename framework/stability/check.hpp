@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "framework/stability/figure.hpp"
+#include "framework/stability/lab.hpp"
+
+namespace lightloom::stability {
+
+/// One extreme to which the renderer is pushed, and what must still be true there.
+struct Check {
+  std::string name;     ///< "scene_scale": what one asks for on the command line
+  std::string group;    ///< "geometry", "light", …: a heading of the table
+  std::string extreme;  ///< what is pushed how far
+  std::string danger;   ///< what goes wrong without a guard
+  std::string guard;    ///< what keeps it from happening, and where
+  /// Renders and measures. What it throws fails the check with that text.
+  std::function<std::vector<Figure>(Lab&)> measure;
+  bool slow = false;  ///< more than about ten seconds on two cores
+};
+
+/// All checks, by group.
+[[nodiscard]] std::vector<Check> all_checks();
+
+// Each adds the checks of one group.
+void add_random_checks(std::vector<Check>& checks);
+
+}  // namespace lightloom::stability
