@@ -27,4 +27,12 @@ std::string read_text_file(const std::filesystem::path& path) {
   return text;
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder, error))
+    throw Error(ExitCode::run_failed, "cannot make the folder '" + folder.string() + "': " +
+                                          (error ? error.message() : std::string("a file of that name is in the way")));
+}
+
 }  // namespace lightloom

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "framework/base/atomic_file.hpp"
+#include "framework/base/file.hpp"
 #include "framework/base/progress.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/messages.hpp"
@@ -68,6 +69,19 @@ std::string document_of(const std::string& table) {
          table;
 }
 
+void give_tables(const std::vector<Outcome>& outcomes, const stability::TableOrigin& origin,
+                 const StabilityOptions& options, const CommandContext& context) {
+  const std::string json = stability::to_json(outcomes, origin).dump(2) + "\n";
+  const std::string document = document_of(stability::to_markdown(outcomes, origin));
+  if (options.json) context.out << json;
+  if (options.markdown) context.out << document;
+  if (options.out.empty()) return;
+  make_folder(options.out);
+  write_file_atomically(options.out / "stability.json", json);
+  write_file_atomically(options.out / "stability.md", document);
+  write_file_atomically(options.out / "report.html", stability::to_html(outcomes, origin));
+}
+
 ExitCode measure(const StabilityOptions& options, const CommandContext& context) {
   const std::vector<Check> all = stability::all_checks();
   const std::vector<const Check*> chosen = stability::choose_checks(all, options.checks, options.slow || options.list);
@@ -81,15 +95,7 @@ ExitCode measure(const StabilityOptions& options, const CommandContext& context)
   const std::vector<Outcome> outcomes = run_all(chosen, lab, print, context);
   const stability::TableOrigin origin{device.info(), options.validate,
                                       "lightloom " + run::version() + " (commit " + run::commit() + ")"};
-  const std::string json = stability::to_json(outcomes, origin).dump(2) + "\n";
-  const std::string document = document_of(stability::to_markdown(outcomes, origin));
-  if (options.json) context.out << json;
-  if (options.markdown) context.out << document;
-  if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
-    write_file_atomically(options.out / "stability.json", json);
-    write_file_atomically(options.out / "stability.md", document);
-  }
+  give_tables(outcomes, origin, options, context);
   const auto missed =
       std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& outcome) { return !passed(outcome); });
   if (missed == 0) return ExitCode::done;
@@ -112,7 +118,8 @@ void add_stability_command(Command& program, const CommandContext& context) {
       .default_text("all that are not slow");
   command.flag("--slow", options->slow, "Also those that take more than about ten seconds");
   command.flag("--list", options->list, "List the checks instead of running them");
-  command.option("--out", options->out, "Also write the table into this folder, as stability.md and stability.json")
+  command
+      .option("--out", options->out, "Also write the table into this folder: report.html, stability.md, stability.json")
       .placeholder("DIR");
   command.flag("--json", options->json, "Print JSON");
   command.flag("--markdown", options->markdown, "Print the document docs/stability.md");

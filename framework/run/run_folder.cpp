@@ -12,6 +12,7 @@
 
 #include "framework/base/atomic_file.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/file.hpp"
 #include "framework/image/exr.hpp"
 #include "framework/image/npy.hpp"
 #include "framework/image/png.hpp"
@@ -21,14 +22,6 @@ namespace lightloom::run {
 namespace {
 
 namespace fs = std::filesystem;
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw Error(ExitCode::run_failed, "cannot make the folder '" + folder.string() + "': " +
-                                          (error ? error.message() : std::string("a file of that name is in the way")));
-}
 
 std::string dimension_text(const ImageDesc& desc) {
   return desc.dimension == Dimension::d3 ? "3d" : "2d";

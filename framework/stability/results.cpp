@@ -55,16 +55,6 @@ std::string rows_of(const Outcome& outcome) {
   return rows;
 }
 
-std::string summary_of(std::span<const Outcome> outcomes, const TableOrigin& origin) {
-  const auto good = std::count_if(outcomes.begin(), outcomes.end(), passed);
-  size_t figures = 0;
-  for (const Outcome& outcome : outcomes) figures += outcome.figures.size();
-  const std::string layers = origin.validation ? "with the validation layers watching" : "without validation layers";
-  return "Device: " + origin.device.name + ", " + origin.device.driver + " " + origin.device.driver_info + ", " +
-         layers + ". " + std::to_string(good) + " of " + std::to_string(outcomes.size()) + " checks passed, " +
-         std::to_string(figures) + " figures. " + origin.version + ".\n";
-}
-
 }  // namespace
 
 std::string number_text(double value) {
@@ -82,6 +72,17 @@ std::string figure_text(const Figure& figure) {
          (figure.unit.empty() ? "" : " " + figure.unit) + (holds(figure) ? "" : "  MISSED");
 }
 
+std::string summary_text(std::span<const Outcome> outcomes) {
+  const auto good = std::count_if(outcomes.begin(), outcomes.end(), passed);
+  size_t figures = 0, holding = 0;
+  for (const Outcome& outcome : outcomes) {
+    figures += outcome.figures.size();
+    holding += static_cast<size_t>(std::count_if(outcome.figures.begin(), outcome.figures.end(), holds));
+  }
+  return std::to_string(good) + " of " + std::to_string(outcomes.size()) + " checks passed, " +
+         std::to_string(holding) + " of " + std::to_string(figures) + " figures hold.";
+}
+
 Json to_json(std::span<const Outcome> outcomes, const TableOrigin& origin) {
   Json checks = Json::array();
   for (const Outcome& outcome : outcomes) checks.push_back(to_json(outcome));
@@ -94,7 +95,10 @@ Json to_json(std::span<const Outcome> outcomes, const TableOrigin& origin) {
 }
 
 std::string to_markdown(std::span<const Outcome> outcomes, const TableOrigin& origin) {
-  std::string text = summary_of(outcomes, origin);
+  const gpu::DeviceInfo& device = origin.device;
+  std::string text = summary_text(outcomes) + "\n\nDevice: " + device.name + ", " + device.driver + " " +
+                     device.driver_info + "; validation layers " + (origin.validation ? "on" : "off") + "; " +
+                     origin.version + ".\n";
   std::string group;
   for (const Outcome& outcome : outcomes) {
     if (outcome.check->group != group) {

@@ -26,7 +26,13 @@ struct TableOrigin {
 /// figures: [{what, value, relation, threshold, unit, holds}]}]}. A value that is no number is null.
 [[nodiscard]] nlohmann::ordered_json to_json(std::span<const Outcome> outcomes, const TableOrigin& origin);
 
+/// "27 of 28 checks passed, 130 of 131 figures hold."
+[[nodiscard]] std::string summary_text(std::span<const Outcome> outcomes);
+
 /// The same as a document: a summary, a table a group, and what each check guards against.
 [[nodiscard]] std::string to_markdown(std::span<const Outcome> outcomes, const TableOrigin& origin);
+
+/// The same as an HTML page that needs nothing outside itself.
+[[nodiscard]] std::string to_html(std::span<const Outcome> outcomes, const TableOrigin& origin);
 
 }  // namespace lightloom::stability

@@ -27,14 +27,6 @@ using Json = nlohmann::ordered_json;
 
 const std::vector<std::string> kColors = {"R", "G", "B", "A"};
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw Error(ExitCode::run_failed, "cannot make the folder '" + folder.string() + "': " +
-                                          (error ? error.message() : std::string("a file of that name is in the way")));
-}
-
 /// Fills a folder aside, then gives it its name: whoever looks sees all of it or nothing.
 template <typename Fill>
 void make_whole(const fs::path& folder, const Fill& fill) {

@@ -16,6 +16,7 @@
 #include "framework/graph/graph_spec.hpp"
 #include "framework/graph/link.hpp"
 #include "framework/run/compile_graph.hpp"
+#include "framework/stability/check.hpp"
 #include "passes/registry.hpp"
 #include "tests/support/source_dir.hpp"
 
@@ -165,6 +166,14 @@ TEST(Docs, the_schemas_are_what_the_program_prints) {
     EXPECT_TRUE(printed == read_text_file(kSource / "docs" / (format + ".schema.json")))
         << "write it again: build/lightloom schema " << format << " --out docs/" << format << ".schema.json";
   }
+}
+
+TEST(Docs, the_table_of_stability_has_every_check) {
+  const std::string table = read_text_file(kSource / "docs/stability.md");
+  for (const stability::Check& check : stability::all_checks())
+    EXPECT_NE(table.find("| `" + check.name + "` | " + check.extreme), std::string::npos)
+        << check.name
+        << "; make the table again: build/lightloom stability --slow --validate --markdown > docs/stability.md";
 }
 
 TEST(Docs, the_first_graph_of_the_readme_is_the_sample) {

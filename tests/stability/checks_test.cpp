@@ -122,8 +122,9 @@ TEST(StabilityResults, AreTextMarkdownAndJson) {
   const TableOrigin origin{device, true, "lightloom 9"};
   EXPECT_EQ(figure_text(outcomes[0].figures[0]), "2e-05 <= 1e-05 relative  MISSED");
   const std::string markdown = to_markdown(outcomes, origin);
-  EXPECT_NE(markdown.find("made-up device, driver 1.2, with the validation layers watching. 0 of 1 checks"),
-            std::string::npos)
+  EXPECT_NE(
+      markdown.find("0 of 1 checks passed, 0 of 2 figures hold.\n\nDevice: made-up device, driver 1.2; validation"),
+      std::string::npos)
       << markdown;
   EXPECT_NE(markdown.find("| `made_up` | error \\| relative | 2e-05 | <= 1e-05 | relative | **no** |"),
             std::string::npos)
@@ -132,6 +133,11 @@ TEST(StabilityResults, AreTextMarkdownAndJson) {
   EXPECT_FALSE(json["passed"]);
   EXPECT_TRUE(json["checks"][0]["figures"][1]["value"].is_null());
   EXPECT_EQ(json["checks"][0]["figures"][0]["threshold"], 1e-5);
+  const std::string html = to_html(outcomes, origin);
+  EXPECT_EQ(html.find("{{"), std::string::npos);
+  EXPECT_NE(html.find("<tr class=\"missed\"><td>error | relative</td><td class=\"number\">2e-05</td>"),
+            std::string::npos)
+      << html.substr(html.find("<main"));
 }
 
 }  // namespace

@@ -1,0 +1,2 @@
+start_theme();
+document.documentElement.dataset.ready = "true";
