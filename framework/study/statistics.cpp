@@ -85,6 +85,23 @@ Estimate jackknife(double value, const std::vector<double>& without) {
   return with_interval(value, standard_error * std::sqrt(count), standard_error, without.size());
 }
 
+/// Largest k for which fewer than k heads in `count` throws of a coin have a probability of 2.5 % at most: the k-th
+/// values from both ends of a sorted sample then hold the median between them in 95 % of samples or more. 0: there is
+/// none.
+size_t sign_test_tail(size_t count) {
+  const auto n = static_cast<double>(count);
+  double tail = 0;
+  size_t k = 0;
+  while (2 * k < count) {
+    const auto heads = static_cast<double>(k);
+    const double ways = std::lgamma(n + 1) - std::lgamma(heads + 1) - std::lgamma(n - heads + 1);
+    tail += std::exp(ways - n * std::log(2.0));
+    if (tail > 0.025) break;
+    ++k;
+  }
+  return k;
+}
+
 }  // namespace
 
 double student_t_quantile(double probability, double degrees_of_freedom) {
@@ -125,6 +142,22 @@ Verdict compare_paired(std::span<const double> row, std::span<const double> base
   verdict.within_noise = pairs == 1 || !std::isfinite(verdict.difference.mean) ||
                          (verdict.difference.low <= 0 && verdict.difference.high >= 0);
   return verdict;
+}
+
+RatioEstimate paired_ratio(std::span<const double> numerator, std::span<const double> denominator) {
+  std::vector<double> ratios;
+  for (size_t i = 0; i < std::min(numerator.size(), denominator.size()); ++i)
+    ratios.push_back(numerator[i] / denominator[i]);
+  if (ratios.empty()) return {};
+  std::sort(ratios.begin(), ratios.end());
+  const size_t outside = sign_test_tail(ratios.size());
+  RatioEstimate result{percentile(ratios, 0.5), ratios.front(), ratios.back(), static_cast<uint32_t>(ratios.size()),
+                       true};
+  if (outside == 0) return result;
+  result.low = ratios[outside - 1];
+  result.high = ratios[ratios.size() - outside];
+  result.within_noise = result.low <= 1 && result.high >= 1;
+  return result;
 }
 
 double percentile(std::vector<double> values, double fraction) {

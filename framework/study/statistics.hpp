@@ -23,6 +23,19 @@ namespace lightloom::study {
 /// list decides how many pairs there are.
 [[nodiscard]] Verdict compare_paired(std::span<const double> row, std::span<const double> baseline);
 
+/// Median of ratios of paired times.
+struct RatioEstimate {
+  double median = 1;
+  double low = 1;  ///< of an interval that holds the true median with 95 % or more, whatever the distribution
+  double high = 1;
+  uint32_t pairs = 0;
+  bool within_noise = true;  ///< the interval holds 1, or there are fewer than the 6 pairs that an interval takes
+};
+
+/// Of numerator[i] / denominator[i], all positive; the shorter list decides how many pairs there are. The interval is
+/// that of the sign test, between two order statistics, so that a few disturbed frames cannot move it far.
+[[nodiscard]] RatioEstimate paired_ratio(std::span<const double> numerator, std::span<const double> denominator);
+
 /// Linear interpolation between order statistics (Hyndman and Fan's type 7, NumPy's default); `fraction` within 0 and
 /// 1, where 0.5 is the median. 0 for none.
 [[nodiscard]] double percentile(std::vector<double> values, double fraction);

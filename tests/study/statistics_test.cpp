@@ -91,6 +91,44 @@ TEST(ComparePaired, EqualSamplesAreWithinTheNoiseAndConstantDifferencesAreNot) {
   EXPECT_TRUE(compare_paired(std::vector<double>{infinity}, std::vector<double>{infinity}).within_noise);
 }
 
+// Tables of the sign test: 6 values lie around the median with probability 1 - 2 / 64; of 20, the 6th to the 15th.
+TEST(PairedRatio, TakesItsIntervalFromOrderStatistics) {
+  for (const auto& [count, first] : {std::pair(5, 0), {6, 1}, {8, 1}, {9, 2}, {20, 6}, {100, 40}}) {
+    std::vector<double> a;
+    for (int i = 1; i <= count; ++i) a.push_back(10 + i);
+    const RatioEstimate ratio = paired_ratio(a, std::vector<double>(a.size(), 1));
+    EXPECT_EQ(ratio.median, 10 + (count + 1) / 2.0);
+    EXPECT_EQ(ratio.low, 10 + std::max(first, 1)) << count;
+    EXPECT_EQ(ratio.high, 10 + count + 1 - std::max(first, 1)) << count;
+    EXPECT_EQ(ratio.within_noise, first == 0) << count;
+  }
+  EXPECT_TRUE(paired_ratio({}, {}).within_noise);
+}
+
+TEST(PairedRatio, HoldsTheTruthAsOftenAsItSaysAndShrugsOffDisturbedFrames) {
+  std::mt19937 random(5);
+  std::lognormal_distribution<double> noise(0, 0.1);
+  std::bernoulli_distribution disturbed(0.1);
+  int held = 0;
+  int equal = 0;
+  constexpr int kTrials = 2000;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<double> a;
+    std::vector<double> b;
+    for (int i = 0; i < 15; ++i) {
+      const double load = disturbed(random) ? 4 : 1;  // of the machine, in both alike
+      a.push_back(1.2 * load * noise(random));
+      b.push_back(load * noise(random));
+    }
+    const RatioEstimate ratio = paired_ratio(a, b);
+    held += ratio.low <= 1.2 && 1.2 <= ratio.high ? 1 : 0;
+    equal += paired_ratio(b, b).within_noise ? 1 : 0;
+  }
+  EXPECT_GT(held, kTrials * 94 / 100);
+  EXPECT_LT(held, kTrials);
+  EXPECT_EQ(equal, kTrials);
+}
+
 TEST(Percentile, InterpolatesBetweenOrderStatistics) {
   EXPECT_EQ(percentile({}, 0.5), 0);
   EXPECT_EQ(percentile({3}, 0.95), 3);
