@@ -130,4 +130,26 @@ std::string in_quotes(std::string_view text) {
   return result + "'";
 }
 
+std::vector<std::string> split_words(std::string_view text) {
+  std::vector<std::string> words;
+  bool within = false;  // a word has begun, which may be empty in quotes
+  char quote = 0;
+  for (const char character : text) {
+    const bool blank = character == ' ' || character == '\t' || character == '\n';
+    if (quote == 0 && blank) {
+      within = false;
+      continue;
+    }
+    if (!within) words.emplace_back();
+    within = true;
+    if (quote == 0 && (character == '\'' || character == '"'))
+      quote = character;
+    else if (character == quote)
+      quote = 0;
+    else
+      words.back() += character;
+  }
+  return words;
+}
+
 }  // namespace lightloom

@@ -27,6 +27,9 @@ namespace lightloom {
 
 /// Pieces between separators, empty ones included; "" gives one empty piece.
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
+/// Words between blanks; 'single' and "double" quotes hold blanks together and fall away. An open quote ends with the
+/// text.
+[[nodiscard]] std::vector<std::string> split_words(std::string_view text);
 
 /// 'text', with control characters escaped and long text cut, fit for a message.
 [[nodiscard]] std::string in_quotes(std::string_view text);

@@ -24,6 +24,8 @@ void add_compare_command(Command& program, const CommandContext& context);
 void add_study_command(Command& program, const CommandContext& context);
 void add_stability_command(Command& program, const CommandContext& context);
 void add_new_command(Command& program, const CommandContext& context);
+/// `arguments` as above.
+void add_bench_command(Command& program, const CommandContext& context, const std::vector<std::string>& arguments);
 void add_devices_command(Command& program, const CommandContext& context);
 void add_completion_command(Command& program, const CommandContext& context);
 

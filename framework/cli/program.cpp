@@ -62,6 +62,7 @@ ExitCode run_program(const std::vector<std::string>& arguments, const CommandCon
     add_study_command(program, context);
     add_stability_command(program, context);
     add_new_command(program, context);
+    add_bench_command(program, context, arguments);
     add_devices_command(program, context);
     add_completion_command(program, context);
     const ExitCode code = answer(program.parse(arguments), context);

@@ -98,6 +98,7 @@ void Executor::start(uint32_t frame, const FrameWants& wants) {
   next.result.frame = frame;
   next.result.conditions = conditions_;
   descriptors_.reset();
+  stamping_ = wants.times && timestamps_.available();
   gpu::CommandSession session(device_);
   record_frame(session, *next.copies);
   session.start();
@@ -109,7 +110,7 @@ FinishedFrame Executor::finish() {
   FinishedFrame frame = std::move(*under_way_);
   under_way_.reset();
   device_.wait_commands();
-  collect_times(frame.result);
+  collect_times(frame);
   if (scan_) frame.result.scanned = scan_->found();
   ++frame_count_;
   started_ = true;
@@ -240,7 +241,7 @@ void Executor::run_host_pass(gpu::CommandSession& session, const GraphPass& pass
 }
 
 void Executor::record_timestamp(VkCommandBuffer commands, uint32_t query) const {
-  if (!timestamps_.available()) return;
+  if (!stamping_) return;
   // Passes are timed one by one: nothing may overlap the stamp. The barrier after it also makes lavapipe, which puts
   // stamps off until something flushes, take it here.
   gpu::record_full_barrier(commands);
@@ -260,10 +261,12 @@ void Executor::record_observations(VkCommandBuffer commands, const std::vector<O
   }
 }
 
-void Executor::collect_times(FrameResult& result) const {
+void Executor::collect_times(FinishedFrame& frame) const {
   const bool first = !started_;
-  const std::vector<double> stamps =
-      timestamps_.nanoseconds(query_count(plan_.steps.size() + (first ? plan_.once.size() : 0)));
+  FrameResult& result = frame.result;
+  std::vector<double> stamps;
+  if (frame.wants.times)
+    stamps = timestamps_.nanoseconds(query_count(plan_.steps.size() + (first ? plan_.once.size() : 0)));
   result.times = times_of(plan_.steps, stamps, 0);
   if (first) result.once_times = times_of(plan_.once, stamps, query_count(plan_.steps.size()));
 }

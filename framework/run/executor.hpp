@@ -116,7 +116,7 @@ class Executor {
   void record_timestamp(VkCommandBuffer commands, uint32_t query) const;
   void record_observations(VkCommandBuffer commands, const std::vector<Observation>& observations,
                            const FrameCopies& copies);
-  void collect_times(FrameResult& result) const;
+  void collect_times(FinishedFrame& frame) const;
   [[nodiscard]] std::vector<PassTime> times_of(const std::vector<PlanStep>& steps, const std::vector<double>& stamps,
                                                size_t first_query) const;
 
@@ -134,6 +134,7 @@ class Executor {
   gpu::DescriptorAllocator descriptors_;
   AccessWatch watch_;
   gpu::TimestampPool timestamps_;
+  bool stamping_ = false;                                         ///< the frame that is being recorded
   std::map<std::string, double, std::less<>> host_milliseconds_;  ///< by pass, of its last run
   std::optional<FinishedFrame> under_way_;                        ///< what is known of it beforehand
   uint64_t frame_count_ = 0;                                      ///< with those before `restore`

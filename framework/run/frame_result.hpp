@@ -35,6 +35,7 @@ struct FrameConditions {
 struct FrameWants {
   bool outputs = true;   ///< of the graph
   bool captures = true;  ///< of the plan
+  bool times = true;     ///< of each pass, where ExecutorOptions::time_passes allows them
 };
 
 /// All that one frame gives to the host.

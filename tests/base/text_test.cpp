@@ -83,5 +83,14 @@ TEST(Text, QuotesEscapeControlCharactersAndCutLongText) {
   EXPECT_LT(in_quotes(std::string(1000, 'x')).size(), 100U);
 }
 
+TEST(SplitWords, KeepsQuotedBlanks) {
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(split_words(""), Words{});
+  EXPECT_EQ(split_words("  a  b\t"), (Words{"a", "b"}));
+  EXPECT_EQ(split_words(R"(graphs/a.json --set 'name=two words' --x "it's" '' p"q r"s)"),
+            (Words{"graphs/a.json", "--set", "name=two words", "--x", "it's", "", "pq rs"}));
+  EXPECT_EQ(split_words("'open quote"), Words{"open quote"});
+}
+
 }  // namespace
 }  // namespace lightloom

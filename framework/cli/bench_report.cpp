@@ -1,0 +1,156 @@
+#include "framework/cli/bench_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <sstream>
+
+#include "framework/base/process.hpp"
+#include "framework/cli/text_layout.hpp"
+#include "framework/gpu/memory.hpp"
+
+namespace lightloom::cli {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::string number(double value, const char* format = "%.3g") {
+  std::array<char, 48> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), value >= 1000 ? "%.0f" : format, value);
+  return buffer.data();
+}
+
+std::string ratio_text(const study::RatioEstimate& ratio) {
+  std::string text = number(ratio.median);
+  if (ratio.low < ratio.high) text += " (" + number(ratio.low) + " to " + number(ratio.high) + ")";
+  return text + (ratio.within_noise ? ", within the noise" : "");
+}
+
+class Report {
+ public:
+  explicit Report(const study::BenchRecord& record) : record_(record), two_(record.runs.size() > 1) {
+    if (two_) comparison_ = study::compare_runs(record.runs[0], record.runs[1]);
+  }
+
+  std::string write() {
+    heading();
+    out_ << align_columns(frames()) << "\nonce [ms]\n"
+         << align_columns(once()) << "\nmemory\n"
+         << align_columns(memory());
+    rays();
+    return out_.str();
+  }
+
+ private:
+  void heading() {
+    const study::BenchSettings& settings = record_.settings;
+    out_ << record_.device.name << ", " << record_.device.driver_info << "; " << settings.frames << " frames after "
+         << settings.warm_up << " to warm up\n";
+    for (size_t i = 0; i < record_.runs.size(); ++i) {
+      const Graph& graph = record_.plans[i].graph;
+      out_ << (two_ ? std::to_string(i + 1) + ": " : "") << record_.runs[i].name << ", view " << to_string(graph.view)
+           << ", trace " << to_string(graph.trace) << '\n';
+    }
+    out_ << "\nevery frame [ms]\n";
+  }
+
+  void add_timing(Row& row, const std::vector<double>* samples) const {
+    if (samples == nullptr || samples->empty()) {
+      row.insert(row.end(), {"-", "-"});
+      return;
+    }
+    const study::Timing timing = study::timing_of(*samples);
+    row.insert(row.end(), {number(timing.median), number(timing.p95)});
+  }
+
+  std::vector<Row> frames() const {
+    std::vector<Row> rows = {two_ ? Row{"", "1: median", "p95", "2: median", "p95", "1 / 2 (95 %)"}
+                                  : Row{"", "median", "p95"}};
+    Row whole = {"whole frame"};
+    for (const study::BenchFigures& run : record_.runs) add_timing(whole, &run.frame_ms);
+    if (two_) whole.push_back(ratio_text(comparison_.frame));
+    rows.push_back(whole);
+    Row sum = {"passes alone, together"};
+    for (const study::BenchFigures& run : record_.runs) {
+      const std::vector<double> sums = study::sums_of_passes(run);
+      add_timing(sum, &sums);
+    }
+    if (two_) sum.emplace_back();
+    rows.push_back(sum);
+    for (const std::string& pass : all_passes()) rows.push_back(pass_row(pass));
+    return rows;
+  }
+
+  std::vector<std::string> all_passes() const {
+    std::vector<std::string> passes;
+    for (const study::BenchFigures& run : record_.runs)
+      for (const std::string& pass : run.passes)
+        if (std::find(passes.begin(), passes.end(), pass) == passes.end()) passes.push_back(pass);
+    return passes;
+  }
+
+  Row pass_row(const std::string& pass) const {
+    Row row = {"  " + pass};
+    for (const study::BenchFigures& run : record_.runs) {
+      const auto found = std::find(run.passes.begin(), run.passes.end(), pass);
+      const bool timed = found != run.passes.end() && !run.pass_ms.empty();
+      add_timing(row, timed ? &run.pass_ms[static_cast<size_t>(found - run.passes.begin())] : nullptr);
+    }
+    if (!two_) return row;
+    const auto both = std::find_if(comparison_.passes.begin(), comparison_.passes.end(),
+                                   [&](const auto& entry) { return entry.first == pass; });
+    row.push_back(both == comparison_.passes.end() ? "" : ratio_text(both->second));
+    return row;
+  }
+
+  std::vector<Row> once() const {
+    std::vector<Row> rows = {{"  read the scene", number(record_.scene_ms)},
+                             {"  open the device", number(record_.device_ms)}};
+    const auto add = [&](const std::string& name, auto figure) {
+      Row row = {name};
+      for (const study::BenchFigures& run : record_.runs) row.push_back(number(figure(run)));
+      rows.push_back(row);
+    };
+    add("  plan the graph", [](const study::BenchFigures& run) { return run.plan_ms; });
+    add("  set up memory, upload the scene", [](const study::BenchFigures& run) { return run.setup_ms; });
+    add("  first frame, pipelines made", [](const study::BenchFigures& run) { return run.first_frame_ms; });
+    add("  hoisted passes in it", [](const study::BenchFigures& run) {
+      double sum = 0;
+      for (const auto& [pass, milliseconds] : run.once) sum += milliseconds;
+      return sum;
+    });
+    return rows;
+  }
+
+  std::vector<Row> memory() const {
+    Row values = {"  values on the device"};
+    for (const study::BenchFigures& run : record_.runs) values.push_back(gpu::bytes_text(run.value_bytes));
+    return {values, {"  the process at its peak", gpu::bytes_text(peak_memory_bytes())}};
+  }
+
+  void rays() {
+    for (const study::BenchFigures& run : record_.runs) {
+      if (!run.rays) continue;
+      out_ << '\n'
+           << run.name << ": " << number(run.rays->rays) << " rays a frame, " << number(run.rays->steps) << " steps";
+      if (run.rays->rays > 0) out_ << " (" << number(run.rays->steps / run.rays->rays) << " a ray)";
+      if (const double rate = study::per_second(run.rays->rays, run); rate > 0)
+        out_ << "; " << number(rate * 1e-6) << " million rays and "
+             << number(study::per_second(run.rays->steps, run) * 1e-6) << " million steps a second of its passes";
+      out_ << '\n';
+    }
+  }
+
+  const study::BenchRecord& record_;
+  bool two_ = false;
+  study::BenchComparison comparison_;
+  std::ostringstream out_;
+};
+
+}  // namespace
+
+std::string bench_report(const study::BenchRecord& record) {
+  return Report(record).write();
+}
+
+}  // namespace lightloom::cli

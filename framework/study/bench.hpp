@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/gpu/device.hpp"
+#include "framework/graph/plan.hpp"
+#include "framework/run/executor.hpp"
+#include "framework/scene/scene.hpp"
+
+namespace lightloom::study {
+
+/// One of the runs that are measured beside each other.
+struct BenchRun {
+  std::string name;  ///< as tables show it
+  Plan plan;
+  double plan_ms = 0;  ///< reading, linking and compiling the graph
+  run::ExecutorOptions options;
+};
+
+struct BenchSettings {
+  uint32_t first_frame = 0;
+  uint32_t frames = 20;   ///< measured, of each run
+  uint32_t warm_up = 10;  ///< run before them and not measured, the first frame included; at least 1
+};
+
+/// What the rays of a frame did, by the outputs `counts` of the passes that have one.
+struct RayCounts {
+  std::vector<std::string> passes;  ///< that counted
+  double rays = 0;                  ///< marched in a frame
+  double steps = 0;                 ///< of them
+};
+
+/// What one run cost. All times in ms.
+struct BenchFigures {
+  std::string name;
+  double plan_ms = 0;
+  double setup_ms = 0;                               ///< memory, the scene's upload
+  double first_frame_ms = 0;                         ///< whole, with pipelines made and hoisted passes run
+  std::vector<std::pair<std::string, double>> once;  ///< hoisted passes
+  std::vector<double> frame_ms;                      ///< whole frames, free-running: from the host's first call to the
+                                                     ///< last result read back
+  std::vector<std::string> passes;                   ///< what every frame runs, in order
+  std::vector<std::vector<double>> pass_ms;          ///< [pass][frame], measured one by one in frames of their own;
+                                                     ///< empty where the device has no timestamps
+  uint64_t value_bytes = 0;                          ///< device memory of the values
+  std::optional<RayCounts> rays;
+};
+
+/// Called with how many of all frames are done.
+using BenchCallback = std::function<void(uint32_t done, uint32_t total)>;
+
+/// Runs the frames of all runs in turn, so that what disturbs the machine disturbs all of them, in an order that is
+/// turned round from frame to frame. Each measured frame number is two frames: one free-running, one that times the
+/// passes one by one. Throws Error for what cannot be run.
+[[nodiscard]] std::vector<BenchFigures> measure(gpu::Device& device, const scene::Scene& scene,
+                                                const std::vector<BenchRun>& runs, const BenchSettings& settings,
+                                                const BenchCallback& on_frame = {});
+
+/// Sums what the passes of a plan counted in one frame, from a plan in which their `counts` are captured.
+[[nodiscard]] RayCounts count_rays(const run::FrameResult& frame);
+
+}  // namespace lightloom::study
