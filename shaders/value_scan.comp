@@ -8,6 +8,7 @@ layout(constant_id = 0) const uint channel_kind = 0u;
 const uint kFloat32 = 0u;
 const uint kFloat16 = 1u;
 const uint kUnorm8 = 3u;   // 2: 32-bit integers
+const uint kUnorm16 = 4u;
 // Texels that hold the pattern in all channels are counted apart, and all texels are digested.
 layout(constant_id = 1) const bool poisoned = false;
 // 0: searches; 1: a single invocation fetches the texel that was found.
@@ -37,7 +38,7 @@ layout(std430) buffer Records { Record records[]; };
 
 uint channel_of(uint texel, uint channel) {
   uint index = texel * channels + channel;
-  if (channel_kind == kFloat16) return (words[index >> 1u] >> (16u * (index & 1u))) & 0xffffu;
+  if (channel_kind == kFloat16 || channel_kind == kUnorm16) return (words[index >> 1u] >> (16u * (index & 1u))) & 0xffffu;
   if (channel_kind == kUnorm8) return (words[index >> 2u] >> (8u * (index & 3u))) & 0xffu;
   return words[index];
 }

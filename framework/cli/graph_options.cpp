@@ -36,6 +36,10 @@ void GraphOptions::add_to(Command& command) {
       .placeholder("GLOB");
   group(command.option("--swap", swaps, "Exchange the type of the passes that match, e.g. trace=reference_path_trace"))
       .placeholder("GLOB=TYPE");
+  group(command.option("--store", stores,
+                       "Format in which the values that match PASS.PORT or PASS.PORT.PART are stored, e.g. "
+                       "'*.radiance=rgba16_sfloat'; of several those that can be"))
+      .placeholder("GLOB=FORMAT");
   group(command.option("--geometry", geometry,
                        "What the passes of type reference_path_trace trace: the scene's triangles, or its voxels"))
       .choices({"triangles", "voxels"})
@@ -67,6 +71,7 @@ LinkOptions GraphOptions::link_options() const {
   options.captures = dumps;
   for (const Assignment& set : sets) options.sets.emplace_back(set.name, set.value);
   for (const Assignment& swap : swaps) options.swaps.emplace_back(swap.name, swap.value);
+  for (const Assignment& store : stores) options.formats.emplace_back(store.name, store.value);
   if (!geometry.empty()) options.type_sets.push_back({"--geometry", "reference_path_trace", "geometry", geometry});
   options.hoist = !no_hoist;
   options.general = general;

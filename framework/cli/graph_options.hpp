@@ -25,6 +25,7 @@ struct GraphOptions {
   std::vector<Assignment> sets;
   std::vector<std::string> disables;
   std::vector<Assignment> swaps;
+  std::vector<Assignment> stores;
   std::vector<std::string> dumps;
   std::string geometry;
   std::optional<Size> size;

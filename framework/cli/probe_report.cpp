@@ -16,7 +16,9 @@ using image::ChannelType;
 
 /// As many digits as tell every number of the type from its neighbours.
 int digits_of(ChannelType type) {
-  return type == ChannelType::half ? 5 : type == ChannelType::unorm8 ? 6 : type == ChannelType::float32 ? 9 : 10;
+  if (type == ChannelType::half) return 5;
+  if (type == ChannelType::unorm8 || type == ChannelType::unorm16) return 6;
+  return type == ChannelType::float32 ? 9 : 10;
 }
 
 std::string number_text(double number, ChannelType type) {
@@ -25,6 +27,7 @@ std::string number_text(double number, ChannelType type) {
   std::ostringstream text;
   text << std::setprecision(digits_of(type)) << number;
   if (type == ChannelType::unorm8) text << " (" << std::lround(number * 255) << ")";
+  if (type == ChannelType::unorm16) text << " (" << std::lround(number * 65535) << ")";
   return text.str();
 }
 

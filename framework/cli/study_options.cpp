@@ -89,6 +89,7 @@ void apply_settings(const StudyOptions& options, StudySpec& spec) {
   changes.variants = options.variants;
   changes.disables = options.disables;
   for (const Assignment& set : options.sets) changes.sets.emplace_back(set.name, set.value);
+  for (const Assignment& store : options.stores) changes.formats.emplace_back(store.name, store.value);
   for (const Assignment& swap : options.swaps) changes.swaps.emplace_back(swap.name, swap.value);
   if (options.size) changes.size = to_size(*options.size);
   if (options.trace_size) changes.trace_size = to_size(*options.trace_size);
@@ -174,6 +175,9 @@ void StudyOptions::add_to(Command& command) {
   constexpr const char* kChanges = "Changes to the graph, for all settings";
   group(command.option("--variant", variants, "Apply a variant that the graph declares"), kChanges).placeholder("NAME");
   group(command.option("--set", sets, "Set a parameter of the graph or of a pass"), kChanges);
+  group(command.option("--store", stores, "Format in which values are stored, by PASS.PORT or PASS.PORT.PART, or a pattern"),
+        kChanges)
+      .placeholder("GLOB=FORMAT");
   group(command.option("--disable", disables, "Disable the passes that match"), kChanges).placeholder("GLOB");
   group(command.option("--swap", swaps, "Exchange the type of the passes that match"), kChanges)
       .placeholder("GLOB=TYPE");

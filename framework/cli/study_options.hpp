@@ -38,6 +38,7 @@ struct StudyOptions {
 
   std::vector<std::string> variants;
   std::vector<Assignment> sets;
+  std::vector<Assignment> stores;
   std::vector<std::string> disables;
   std::vector<Assignment> swaps;
   std::optional<Size> size;

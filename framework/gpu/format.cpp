@@ -13,6 +13,8 @@ VkFormat vulkan_format(Format format) {
       return VK_FORMAT_R8_UNORM;
     case Format::rgba8_unorm:
       return VK_FORMAT_R8G8B8A8_UNORM;
+    case Format::rgba16_unorm:
+      return VK_FORMAT_R16G16B16A16_UNORM;
     case Format::r16_sfloat:
       return VK_FORMAT_R16_SFLOAT;
     case Format::rg16_sfloat:
@@ -51,6 +53,7 @@ uint32_t texel_bytes(VkFormat format) {
     case VK_FORMAT_R32_UINT:
     case VK_FORMAT_D32_SFLOAT:
       return 4;
+    case VK_FORMAT_R16G16B16A16_UNORM:
     case VK_FORMAT_R16G16B16A16_SFLOAT:
     case VK_FORMAT_R32G32_SFLOAT:
     case VK_FORMAT_R32G32_UINT:

@@ -48,9 +48,10 @@ struct FormatRow {
   SpvImageFormat shader;
   Format format;
 };
-constexpr std::array<FormatRow, 11> kFormats{{
+constexpr std::array<FormatRow, 12> kFormats{{
     {SpvImageFormatR8, Format::r8_unorm},
     {SpvImageFormatRgba8, Format::rgba8_unorm},
+    {SpvImageFormatRgba16, Format::rgba16_unorm},
     {SpvImageFormatR16f, Format::r16_sfloat},
     {SpvImageFormatRg16f, Format::rg16_sfloat},
     {SpvImageFormatRgba16f, Format::rgba16_sfloat},

@@ -26,10 +26,11 @@ constexpr std::array<KeyDoc, 10> kGraphKeys{{
 
 constexpr std::array<KeyDoc, 2> kSizeKeys{{{"width", "[pixels]"}, {"height", "[pixels]"}}};
 
-constexpr std::array<KeyDoc, 6> kPassKeys{{
+constexpr std::array<KeyDoc, 7> kPassKeys{{
     {"type", "Pass type; `lightloom passes` lists them"},
     {"in", "Edges to its inputs: \"pass.port\" or \"pass.port.part\", with @K for the value of K frames ago"},
     {"params", "Its params; those left out have their default"},
+    {"formats", "How its outputs are stored, by PORT or PORT.PART; those left out as its type says"},
     {"enabled", "false: the pass is off, and each of its outputs is replaced by its bypass"},
     {"when", "The pass is off unless the scene has the feature, or, with '!', lacks it"},
     {"doc", "For people"},
@@ -55,11 +56,12 @@ constexpr std::array<KeyDoc, 3> kComputeOutputKeys{{
     {"bypass", "What replaces it where the pass is off: an input, or a constant"},
 }};
 
-constexpr std::array<KeyDoc, 4> kVariantKeys{{
+constexpr std::array<KeyDoc, 5> kVariantKeys{{
     {"doc", "For people"},
     {"disable", "Passes that are off, by name or pattern ('denoise_*')"},
     {"set", "Params by PARAM (the graph's) or PASS.PARAM, where PASS may be a pattern"},
     {"swap", "Other types for passes, by name or pattern"},
+    {"formats", "How values are stored, by PASS.PORT or PASS.PORT.PART, or a pattern ('*.radiance')"},
 }};
 
 }  // namespace lightloom

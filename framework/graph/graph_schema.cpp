@@ -1,5 +1,7 @@
 #include "framework/graph/graph_schema.hpp"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "framework/base/json_schema.hpp"
@@ -117,13 +119,34 @@ Json required_inputs(const PassType& type) {
   return {{"if", off}, {"else", {{"required", {"in"}}, {"properties", {{"in", {{"required", names}}}}}}}};
 }
 
+/// By name, those that a graph may store in another format.
+Json formats_schema(const PassType& type) {
+  Json properties = Json::object();
+  for (const Port& port : type.ports) {
+    if (port.direction == Direction::in || !port.exact_format.empty()) continue;
+    std::vector<std::string> of_bundle;
+    for (const PortPart& part : port.parts) {
+      std::vector<std::string> names;
+      for (const Format format : storage_choices(part.format)) names.emplace_back(format_info(format).name);
+      if (names.size() < 2) continue;
+      for (const std::string& name : names)
+        if (std::find(of_bundle.begin(), of_bundle.end(), name) == of_bundle.end()) of_bundle.push_back(name);
+      if (!part.name.empty())
+        properties[port.name + "." + part.name] = {{"default", format_info(part.format).name}, {"enum", names}};
+    }
+    if (!of_bundle.empty()) properties[port.name] = {{"enum", of_bundle}};
+  }
+  return {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
+}
+
 Json pass_type_schema(const PassType& type) {
   Json params = Json::object();
   for (const Param& param : type.params) params[param.name] = param_schema(param);
   Json schema = {{"description", type.doc},
                  {"properties",
                   {{"in", inputs_schema(type)},
-                   {"params", {{"type", "object"}, {"additionalProperties", false}, {"properties", params}}}}}};
+                   {"params", {{"type", "object"}, {"additionalProperties", false}, {"properties", params}}},
+                   {"formats", formats_schema(type)}}}};
   if (const Json required = required_inputs(type); !required.is_null()) schema.update(required);
   return schema;
 }
@@ -138,14 +161,11 @@ Json when_schema(const std::vector<std::string>& scene_features) {
 }
 
 Json compute_output_schema() {
-  Json formats = Json::array();
-  for (uint8_t i = 0; i <= static_cast<uint8_t>(Format::d32_sfloat); ++i)
-    if (const FormatInfo& info = format_info(static_cast<Format>(i)); !info.depth) formats.push_back(info.name);
   const Json number = {{"type", "number"}};
   const Json color = {{"type", "array"}, {"items", number}, {"minItems", 1}, {"maxItems", 4}};
   return object_schema(
       kComputeOutputKeys,
-      {{"format", {{"enum", formats}}},
+      {{"format", {{"enum", format_names()}}},
        {"size", string_schema("^(view|trace|grid|like [A-Za-z_][A-Za-z0-9_]*|[0-9]+x[0-9]+(x[0-9]+)?)$")},
        {"bypass", {{"anyOf", Json::array({{{"type", "string"}}, number, color})}}}});
 }
@@ -173,6 +193,7 @@ Json pass_schema(const PassRegistry& registry, const std::vector<std::string>& s
                               {{"type", schema_reference("pass_type")},
                                {"in", object},
                                {"params", object},
+                               {"formats", object},
                                {"enabled", {{"type", "boolean"}, {"default", true}}},
                                {"when", when_schema(scene_features)},
                                {"doc", {{"type", "string"}}}},
@@ -207,7 +228,8 @@ Json variant_schema() {
                        {{"doc", {{"type", "string"}}},
                         {"disable", texts},
                         {"set", {{"type", "object"}, {"additionalProperties", scalar_schema()}}},
-                        {"swap", {{"type", "object"}, {"additionalProperties", schema_reference("pass_type")}}}});
+                        {"swap", {{"type", "object"}, {"additionalProperties", schema_reference("pass_type")}}},
+                        {"formats", {{"type", "object"}, {"additionalProperties", {{"enum", format_names()}}}}}});
 }
 
 /// An object whose keys are names.

@@ -49,6 +49,14 @@ struct ConnectionSpec {
   EdgeSpec edge;
 };
 
+/// In which format values are stored: those of a node ("port" or "port.part"), or those that match a pattern over
+/// "pass.port" and "pass.port.part".
+struct FormatSpec {
+  std::string values;
+  SourceLocation values_where;
+  TextSpec format;  ///< "rgba16_sfloat"
+};
+
 /// What a node of type `compute` says of an output of its shader; what is left out follows from the shader.
 struct ComputeOutputSpec {
   std::string name;
@@ -74,6 +82,7 @@ struct PassSpec {
   TextSpec type;
   std::vector<ConnectionSpec> inputs;
   std::vector<ScalarSpec> params;
+  std::vector<FormatSpec> formats;
   bool enabled = true;
   SourceLocation enabled_where;
   std::optional<TextSpec> when;
@@ -95,6 +104,7 @@ struct VariantSpec {
   std::vector<TextSpec> disable;
   std::vector<ScalarSpec> set;  ///< names are "PARAM" or "PASS.PARAM", PASS may be a glob
   std::vector<SwapSpec> swap;
+  std::vector<FormatSpec> formats;
 };
 
 struct SizeSpec {

@@ -45,6 +45,7 @@ std::optional<Graph> link(const GraphSpec& spec, const PassRegistry& registry, c
   std::vector<std::string> notes;
   linking::Nodes nodes = linking::make_nodes(input, report, notes);
   linking::resolve_params(nodes, report);
+  linking::resolve_formats(nodes, report, notes);
   linking::warn_unused_params(nodes, input, report);
   linking::EdgeResolver edges(nodes, report);
   const linking::Wiring wiring = edges.resolve(spec);

@@ -22,16 +22,17 @@ struct TypeSet {
   std::string value;
 };
 
-/// What the command line asks for. Applied in this order: each variant in turn (its swap, disable, set), then `swaps`,
-/// `type_sets`, `disables`, `sets`. Problems are reported at file "--variant", "--swap", "--disable", "--set",
-/// "--dump", "--size",
-/// "--trace-size", line 0.
+/// What the command line asks for. Applied in this order: each variant in turn (its swap, disable, set, formats), then `swaps`,
+/// `type_sets`, `disables`, `sets`, `formats`. Problems are reported at file "--variant", "--swap", "--disable", "--set",
+/// "--store", "--dump", "--size", "--trace-size", line 0.
 struct LinkOptions {
   std::vector<std::string> variants;
   std::vector<std::pair<std::string, std::string>> swaps;  ///< pass glob, type
   std::vector<TypeSet> type_sets;                          ///< each needs a pass of its type
   std::vector<std::string> disables;                       ///< pass globs
   std::vector<std::pair<std::string, std::string>> sets;   ///< "PARAM" or "PASS.PARAM" (PASS a glob), value text
+  /// Glob over "pass.port" and "pass.port.part", name of a format. Of several images those are stored so that can be.
+  std::vector<std::pair<std::string, std::string>> formats;
   std::optional<std::pair<uint32_t, uint32_t>> view;       ///< width, height [pixels]
   std::optional<std::pair<uint32_t, uint32_t>> trace;      ///< the same of what is traced
   std::vector<std::string> captures;  ///< globs over "pass.port" and "pass.port.part"; "*" means every value

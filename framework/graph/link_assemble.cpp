@@ -41,7 +41,7 @@ class Assembler {
     const std::optional<Extent3> extent = shapes_.extent_of(image);
     complete_ = complete_ && extent.has_value();
     graph_.values.push_back({nodes_.list[image.node].spec->name, image.port->name, part.name,
-                             ImageDesc{part.format, image.port->dimension, extent.value_or(Extent3{})}, constant, 0,
+                             ImageDesc{nodes_.list[image.node].format_of(part), image.port->dimension, extent.value_or(Extent3{})}, constant, 0,
                              image.port->direction == Direction::scratch, false});
     const auto id = static_cast<ValueId>(images_.size());
     images_.push_back(image);

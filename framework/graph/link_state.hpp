@@ -43,13 +43,26 @@ struct Node {
   std::vector<std::string> swapped_params;  ///< names of params that were given before a swap …
   std::vector<std::string> dropped_inputs;  ///< … and of inputs that the new type cannot take
   ParamSet resolved;
+  std::vector<std::pair<const PortPart*, Format>> formats;  ///< of images that are not stored as the type says
   [[nodiscard]] bool enabled() const { return disabled.empty(); }
+  [[nodiscard]] Format format_of(const PortPart& image) const {
+    for (const auto& [part, format] : formats)
+      if (part == &image) return format;
+    return image.format;
+  }
+};
+
+/// A wish for a format, by whom and where.
+struct FormatWish {
+  std::optional<uint32_t> node;  ///< `values` names its port or "port.part"; else it is a glob over the names of all
+  FormatSpec spec;
 };
 
 /// What variants and options can change.
 struct Nodes {
   std::vector<Node> list;
   std::vector<ScalarSpec> graph_params;
+  std::vector<FormatWish> formats;  ///< in the order in which they apply
   std::unordered_map<std::string_view, uint32_t> by_name;  ///< the file's names, which outlive the linking
   [[nodiscard]] std::vector<std::string> names() const;
 };
@@ -134,6 +147,9 @@ void drop_misfits(Node& node, const Nodes& nodes, const PassRegistry& registry, 
 /// link_params.cpp: fills Node::resolved.
 void resolve_params(Nodes& nodes, Report& report);
 void warn_unused_params(const Nodes& nodes, const Input& input, Report& report);
+
+/// link_formats.cpp: fills Node::formats.
+void resolve_formats(Nodes& nodes, Report& report, std::vector<std::string>& notes);
 
 /// link_edges.cpp: one value per declared input, bypasses followed.
 class EdgeResolver {

@@ -58,6 +58,7 @@ class Editor {
     for (const TextSpec& glob : variant.disable) disable(glob, by);
     for (const ScalarSpec& entry : variant.set)
       if (!entry.broken) set(entry, {});
+    for (const FormatSpec& entry : variant.formats) nodes_.formats.push_back({std::nullopt, entry});
   }
 
   void options(const LinkOptions& options) {
@@ -66,6 +67,9 @@ class Editor {
     for (const std::string& glob : options.disables) disable({glob, {"--disable", 0, 0}}, "--disable");
     const SourceLocation where{"--set", 0, 0};
     for (const auto& [name, text] : options.sets) set({name, where, parse_value(text), where}, text);
+    const SourceLocation store{"--store", 0, 0};
+    for (const auto& [values, format] : options.formats)
+      nodes_.formats.push_back({std::nullopt, {values, store, {format, store}}});
   }
 
  private:
@@ -221,6 +225,8 @@ Nodes nodes_of_file(const Input& input, Report& report) {
     Node& node = nodes.list.emplace_back();
     node.spec = &spec;
     node.params = spec.params;
+    for (const FormatSpec& format : spec.formats)
+      nodes.formats.push_back({static_cast<uint32_t>(nodes.list.size() - 1), format});
     if (!spec.enabled) {
       node.disabled = "\"enabled\": false";
       node.disabled_where = spec.enabled_where;
@@ -255,6 +261,7 @@ Nodes make_nodes(const Input& input, Report& report, std::vector<std::string>& n
     std::vector<std::string> unsaid;
     for (Node& node : tried.list) drop_misfits(node, tried, input.registry, unsaid);
     resolve_params(tried, report);
+    resolve_formats(tried, report, unsaid);
   }
   Editor editor(nodes, input, report);
   for (const std::string& wanted : input.options.variants) {

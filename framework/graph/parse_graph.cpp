@@ -141,6 +141,15 @@ class GraphReader {
     return scalars;
   }
 
+  std::vector<FormatSpec> read_formats(const JsonNode& node) {
+    std::vector<FormatSpec> formats;
+    if (!expect(node, JsonKind::object, "'formats'")) return formats;
+    for (const JsonMember& member : node.members)
+      if (TextSpec format = read_filled(member.value, "a format"); !format.text.empty())
+        formats.push_back({member.key, member.where, std::move(format)});
+    return formats;
+  }
+
   EdgeSpec read_edge(const JsonNode& node) {
     EdgeSpec broken;
     broken.where = node.where;
@@ -190,6 +199,8 @@ class GraphReader {
     }
     if (const JsonNode* inputs = node.find("in")) pass.inputs = read_connections(*inputs, "'in'");
     if (const JsonNode* params = node.find("params")) pass.params = read_scalars(*params, "'params'", false);
+    if (const JsonNode* formats = node.find("formats"); formats != nullptr && !pass.compute)
+      pass.formats = read_formats(*formats);
     if (const JsonNode* enabled = node.find("enabled"); enabled && expect(*enabled, JsonKind::boolean, "'enabled'")) {
       pass.enabled = enabled->boolean;
       pass.enabled_where = enabled->where;
@@ -287,6 +298,7 @@ class GraphReader {
         if (expect(entry.value, JsonKind::string, "a type in 'swap'"))
           variant.swap.push_back({{entry.key, entry.where}, {entry.value.string, entry.value.where}});
     }
+    if (const JsonNode* formats = node.find("formats")) variant.formats = read_formats(*formats);
     return variant;
   }
 

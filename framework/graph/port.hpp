@@ -17,7 +17,9 @@ enum class Direction : uint8_t { in, out, scratch };
 /// One image of a bundle; a plain port has exactly one part with an empty name.
 struct PortPart {
   std::string name;
-  Format format = Format::rgba16_sfloat;  ///< for inputs only its numeric class is compared
+  /// Outputs and scratch: how the image is stored unless the graph says otherwise. Inputs: only its numeric class is
+  /// compared, so a shader must do with what comes.
+  Format format = Format::rgba16_sfloat;
   std::string doc;
 };
 
@@ -51,6 +53,8 @@ struct Port {
   /// image after a partial rewrite equals, bit for bit, the one a full rewrite would make.
   bool persistent = false;
   std::optional<Bypass> bypass;
+  /// Outputs and scratch: why no graph may store it in another format; empty: it may be any of `storage_choices`.
+  std::string exact_format;
   std::string doc;
 };
 

@@ -36,6 +36,8 @@ float sample(const std::byte* from, ChannelType type) {
   switch (type) {
     case ChannelType::unorm8:
       return static_cast<float>(load<uint8_t>(from)) / 255.0f;
+    case ChannelType::unorm16:
+      return static_cast<float>(load<uint16_t>(from)) / 65535.0f;
     case ChannelType::half:
       return float_from_half(load<uint16_t>(from));
     case ChannelType::float32:

@@ -1,6 +1,8 @@
 #include "framework/image/dumped_image.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -33,6 +35,30 @@ std::byte unorm8_from_half(const std::byte* from) {
   return static_cast<std::byte>(std::lround(static_cast<double>(float_from_half(half)) * 255));
 }
 
+/// 16-bit channels were written as v / 65535 in 32-bit floats.
+std::array<std::byte, 2> unorm16_from_float(const std::byte* from) {
+  float number = 0;
+  std::memcpy(&number, from, sizeof number);
+  return std::bit_cast<std::array<std::byte, 2>>(
+      static_cast<uint16_t>(std::lround(static_cast<double>(number) * 65535)));
+}
+
+/// How a channel stands in the file.
+ChannelType written_as(ChannelType type) {
+  if (type == ChannelType::unorm8) return ChannelType::half;
+  return type == ChannelType::unorm16 ? ChannelType::float32 : type;
+}
+
+/// A sample of the file as the device had it.
+void copy_channel(std::byte* to, const std::byte* from, ChannelType type) {
+  if (type == ChannelType::unorm8)
+    *to = unorm8_from_half(from);
+  else if (type == ChannelType::unorm16)
+    std::memcpy(to, unorm16_from_float(from).data(), 2);
+  else
+    std::memcpy(to, from, channel_bytes(type));
+}
+
 /// Where each wanted channel is in the file, which orders them in its own way.
 std::vector<size_t> places_of(const std::filesystem::path& file, const ExrImage& exr, const ImageDesc& desc,
                               const std::vector<std::string>& names) {
@@ -48,10 +74,9 @@ std::vector<size_t> places_of(const std::filesystem::path& file, const ExrImage&
 HostImage from_exr(const std::filesystem::path& file, const ImageDesc& desc, const std::vector<std::string>& names) {
   const ExrImage exr = read_exr(file);
   const ChannelType type = channel_type(desc.format);
-  const bool bytes = type == ChannelType::unorm8;
   if (exr.width != desc.extent.width || exr.height != desc.extent.height || desc.extent.depth != 1)
     fail(file, "is " + to_string(Extent3{exr.width, exr.height, 1}), desc);
-  if (exr.type != (bytes ? ChannelType::half : type)) fail(file, "has samples of another type", desc);
+  if (exr.type != written_as(type)) fail(file, "has samples of another type", desc);
   if (exr.channels.size() != names.size()) fail(file, "has " + std::to_string(exr.channels.size()) + " channels", desc);
   const std::vector<size_t> places = places_of(file, exr, desc, names);
   HostImage image{desc, std::vector<std::byte>(byte_size(desc))};
@@ -59,11 +84,7 @@ HostImage from_exr(const std::filesystem::path& file, const ImageDesc& desc, con
   std::byte* to = image.texels.data();
   for (size_t texel = 0; texel < size_t{exr.width} * exr.height; ++texel) {
     for (const size_t place : places) {
-      const std::byte* from = exr.samples.data() + (texel * names.size() + place) * stored;
-      if (bytes)
-        *to = unorm8_from_half(from);
-      else
-        std::memcpy(to, from, stored);
+      copy_channel(to, exr.samples.data() + (texel * names.size() + place) * stored, type);
       to += channel_bytes(type);
     }
   }

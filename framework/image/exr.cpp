@@ -26,6 +26,7 @@ OIIO::TypeDesc sample_type(ChannelType type) {
     case ChannelType::unorm8:
     case ChannelType::half:
       return OIIO::TypeDesc::HALF;
+    case ChannelType::unorm16:
     case ChannelType::float32:
       return OIIO::TypeDesc::FLOAT;
     case ChannelType::uint32:
@@ -41,6 +42,17 @@ std::vector<std::byte> half_from_unorm8(std::span<const std::byte> texels) {
     std::memcpy(halves.data() + i * sizeof half, &half, sizeof half);
   }
   return halves;
+}
+
+std::vector<std::byte> float_from_unorm16(std::span<const std::byte> texels) {
+  std::vector<std::byte> floats(texels.size() * 2);
+  for (size_t i = 0; i < texels.size() / 2; ++i) {
+    uint16_t steps = 0;
+    std::memcpy(&steps, texels.data() + i * sizeof steps, sizeof steps);
+    const float number = static_cast<float>(steps) / 65535.0f;
+    std::memcpy(floats.data() + i * sizeof number, &number, sizeof number);
+  }
+  return floats;
 }
 
 ChannelType stored_type(const OIIO::ImageSpec& spec) {
@@ -86,6 +98,8 @@ void write_exr(const std::filesystem::path& file, const HostImage& image,
   spec.attribute("DateTime", "");
   if (type == ChannelType::unorm8) {
     encode_and_write(file, "openexr", spec, half_from_unorm8(image.texels).data());
+  } else if (type == ChannelType::unorm16) {
+    encode_and_write(file, "openexr", spec, float_from_unorm16(image.texels).data());
   } else {
     encode_and_write(file, "openexr", spec, image.texels.data());
   }

@@ -22,6 +22,8 @@ ChannelType channel_type(Format format) {
     case Format::r8_unorm:
     case Format::rgba8_unorm:
       return ChannelType::unorm8;
+    case Format::rgba16_unorm:
+      return ChannelType::unorm16;
     case Format::r16_sfloat:
     case Format::rg16_sfloat:
     case Format::rgba16_sfloat:
@@ -43,6 +45,7 @@ size_t channel_bytes(ChannelType type) {
   switch (type) {
     case ChannelType::unorm8:
       return 1;
+    case ChannelType::unorm16:
     case ChannelType::half:
       return 2;
     case ChannelType::float32:
@@ -66,6 +69,8 @@ double HostImage::at(uint32_t x, uint32_t y, uint32_t z, uint32_t channel) const
   switch (type) {
     case ChannelType::unorm8:
       return static_cast<double>(load<uint8_t>(from)) / 255.0;
+    case ChannelType::unorm16:
+      return static_cast<double>(load<uint16_t>(from)) / 65535.0;
     case ChannelType::half:
       return static_cast<double>(float_from_half(load<uint16_t>(from)));
     case ChannelType::float32:

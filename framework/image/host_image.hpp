@@ -10,7 +10,7 @@
 namespace lightloom::image {
 
 /// How one channel of a format is stored.
-enum class ChannelType : uint8_t { unorm8, half, float32, uint32 };
+enum class ChannelType : uint8_t { unorm8, unorm16, half, float32, uint32 };
 
 [[nodiscard]] ChannelType channel_type(Format format);
 [[nodiscard]] size_t channel_bytes(ChannelType type);

@@ -13,26 +13,6 @@ namespace {
 
 constexpr Format kDefaultFormat = Format::rgba32_sfloat;
 
-/// Formats that a shader can store.
-std::vector<Format> storable_formats() {
-  std::vector<Format> formats;
-  for (uint8_t i = 0; i <= static_cast<uint8_t>(Format::d32_sfloat); ++i)
-    if (const auto format = static_cast<Format>(i); !format_info(format).depth) formats.push_back(format);
-  return formats;
-}
-
-std::optional<Format> format_named(std::string_view name) {
-  for (const Format format : storable_formats())
-    if (format_info(format).name == name) return format;
-  return std::nullopt;
-}
-
-std::vector<std::string> format_names() {
-  std::vector<std::string> names;
-  for (const Format format : storable_formats()) names.emplace_back(format_info(format).name);
-  return names;
-}
-
 Dimension dimension_of(const gpu::Binding& binding) {
   return binding.shape == gpu::ImageShape::d3 ? Dimension::d3 : Dimension::d2;
 }
@@ -153,6 +133,7 @@ void ComputePorts::add_output(const gpu::Binding& binding) {
   const ComputeOutputSpec* spec = find_spec(node_.pass, port.name);
   const std::optional<Format> format = output_format(binding, spec);
   port.parts = {{"", format.value_or(kDefaultFormat), ""}};
+  if (binding.format) port.exact_format = "its shader names the format";
   set_size(port, spec);
   if (spec != nullptr) set_bypass(port, *spec);
   ports_.push_back(std::move(port));
@@ -167,7 +148,7 @@ std::optional<Format> ComputePorts::output_format(const gpu::Binding& binding, c
     return std::nullopt;
   }
   const SourceLocation& where = spec->format->where;
-  const std::optional<Format> format = format_named(spec->format->text);
+  const std::optional<Format> format = find_format(spec->format->text);
   if (!format) {
     error("unknown-format", where,
           "output '" + spec->name + "' cannot have the format " + in_quotes(spec->format->text),

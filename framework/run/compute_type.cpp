@@ -55,13 +55,21 @@ class ComputeParams {
  private:
   /// pass_context.hpp lists what is.
   bool is_provided(const std::string& name) const {
-    if (is_scene_constant(name)) return true;
+    if (is_scene_constant(name) || tells_storage(name)) return true;
     return std::any_of(ports_.begin(), ports_.end(), [&](const Port& port) {
       if (port.direction == Direction::out) return name == port.name + "_wanted";
       if (port.optional && name == port.name + "_bound") return true;
       return port.array && (name == port.name + "_count" || name == port.name + "_first_age" ||
                             name == port.name + "_ring" || name == port.name + "_newest_layer");
     });
+  }
+
+  /// IMAGE_largest, IMAGE_bits.
+  bool tells_storage(const std::string& name) const {
+    return std::any_of(shader_.reflection.bindings.begin(), shader_.reflection.bindings.end(),
+                       [&](const gpu::Binding& image) {
+                         return name == image.name + "_largest" || name == image.name + "_bits";
+                       });
   }
 
   void add(const std::string& name, gpu::ScalarType type, const std::string& kind,

@@ -22,6 +22,18 @@ ShaderValue shader_value(const ParamSet& params, const ParamSet::Entry& entry) {
   throw Error(ExitCode::run_failed, "param '" + name + "' has no known type");
 }
 
+/// How an image of the pass's shaders is stored. Nothing is read of what is not there, but shaders that could read it
+/// are compiled all the same.
+std::optional<Format> format_of(const GraphPass& pass, const std::vector<Value>& graph_values, std::string_view image) {
+  for (const std::vector<Use>* uses : {&pass.inputs, &pass.outputs, &pass.scratch})
+    for (const Use& use : *uses)
+      if (use.shader_name == image) return graph_values[use.value].desc.format;
+  for (const std::string& port : pass.unconnected)
+    for (const PortPart& part : pass.type->find_port(port, Direction::in)->parts)
+      if (image == (part.name.empty() ? port : port + "_" + part.name)) return part.format;
+  return std::nullopt;
+}
+
 }  // namespace
 
 gpu::ResourceMap port_resources(const GraphPass& pass, const ValueImages& images, uint64_t frame_count) {
@@ -61,6 +73,18 @@ std::vector<ShaderValue> known_shader_values(const GraphPass& pass, const ValueI
     values.push_back({port.name + "_newest_layer", 0u});
   }
   return values;
+}
+
+std::optional<ShaderValue> storage_value(const GraphPass& pass, const std::vector<Value>& graph_values,
+                                         std::string_view name) {
+  constexpr std::string_view kLargest = "_largest", kBits = "_bits";
+  const bool largest = name.ends_with(kLargest);
+  if (!largest && !name.ends_with(kBits)) return std::nullopt;
+  const std::optional<Format> format =
+      format_of(pass, graph_values, name.substr(0, name.size() - (largest ? kLargest : kBits).size()));
+  if (!format) return std::nullopt;
+  return largest ? ShaderValue{std::string(name), largest_number(*format)}
+                 : ShaderValue{std::string(name), channel_bits(*format)};
 }
 
 std::vector<ShaderValue> specialization_values(const gpu::Reflection& reflection,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,6 +22,10 @@ namespace lightloom::run {
 [[nodiscard]] std::vector<ShaderValue> known_shader_values(const GraphPass& pass, const ValueImages& images,
                                                            uint64_t frame_count,
                                                            const std::vector<ShaderValue>& scene_values);
+
+/// NAME_largest or NAME_bits of an image that the pass's shaders call NAME (pass_context.hpp); empty for other names.
+[[nodiscard]] std::optional<ShaderValue> storage_value(const GraphPass& pass, const std::vector<Value>& graph_values,
+                                                       std::string_view name);
 
 /// Those of `values` that are specialization constants of the shader.
 [[nodiscard]] std::vector<ShaderValue> specialization_values(const gpu::Reflection& reflection,

@@ -103,6 +103,7 @@ std::vector<ShaderValue> PassRecorder::values_for(const gpu::Reflection& reflect
     constexpr std::string_view kWanted = "_wanted";
     if (name.size() > kWanted.size() && name.compare(name.size() - kWanted.size(), kWanted.size(), kWanted) == 0)
       return ShaderValue{name, wanted(std::string_view(name).substr(0, name.size() - kWanted.size()))};
+    if (auto stored = storage_value(pass_, graph_.values, name)) return *std::move(stored);
     fail(pass_, "shader '" + reflection.name + "' has a constant '" + name +
                     "', which is neither a param, nor a feature of scenes, nor given by the pass");
   };

@@ -46,6 +46,8 @@ uint32_t poison_bits(Format format, PoisonTone tone, uint64_t frame_count) {
   switch (image::channel_type(format)) {
     case image::ChannelType::unorm8:
       return nan ? 0xa5u : (low ? 0x01u : 0x3cu);
+    case image::ChannelType::unorm16:
+      return nan ? 0xa5c3u : (low ? 0x0101u : 0x3c3cu);
     case image::ChannelType::half:
       return nan ? 0x7ed5u : (low ? 0xef1au : 0x6f1au);  // 7272
     case image::ChannelType::float32:

@@ -43,6 +43,8 @@ std::string samples_text(ImageDesc desc) {
   switch (image::channel_type(desc.format)) {
     case image::ChannelType::unorm8:
       return "uint8, 0..255 stands for 0..1";
+    case image::ChannelType::unorm16:
+      return "uint16, 0..65535 stands for 0..1";
     case image::ChannelType::half:
       return "float16";
     case image::ChannelType::float32:

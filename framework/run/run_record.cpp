@@ -92,6 +92,7 @@ Json link_record(const LinkOptions& options) {
           {"type_sets", type_sets},
           {"disables", options.disables},
           {"sets", pairs_record(options.sets)},
+          {"formats", pairs_record(options.formats)},
           {"view", size_record(options.view)},
           {"trace", size_record(options.trace)},
           {"captures", options.captures},
@@ -109,6 +110,7 @@ LinkOptions link_options_of(const Json& record) {
   }
   options.disables = texts_of(record.at("disables"));
   options.sets = pairs_of(record.at("sets"));
+  options.formats = pairs_of(record.at("formats"));
   options.view = size_of(record.at("view"));
   options.trace = size_of(record.at("trace"));
   options.captures = texts_of(record.at("captures"));

@@ -24,6 +24,8 @@ std::string channel_text(image::ChannelType type, uint32_t raw) {
   switch (type) {
     case image::ChannelType::unorm8:
       return number_text(raw / 255.0);
+    case image::ChannelType::unorm16:
+      return number_text(raw / 65535.0);
     case image::ChannelType::half:
       return number_text(image::float_from_half(static_cast<uint16_t>(raw)));
     case image::ChannelType::float32:

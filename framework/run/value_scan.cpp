@@ -37,6 +37,8 @@ uint32_t channel_kind(Format format) {
       return 2;
     case image::ChannelType::unorm8:
       return 3;
+    case image::ChannelType::unorm16:
+      return 4;
   }
   return 2;
 }

@@ -50,11 +50,12 @@ constexpr std::array<KeyDoc, 5> kFramesKeys{{
     {"per_second", "Of scene time"},
 }};
 
-constexpr std::array<KeyDoc, 7> kChangeKeys{{
+constexpr std::array<KeyDoc, 8> kChangeKeys{{
     {"variants", "Variants that the graph declares"},
     {"set", "Params by PARAM (the graph's) or PASS.PARAM"},
     {"disable", "Patterns of passes that are off"},
     {"swap", "Other types for passes, by pattern"},
+    {"formats", "Formats in which values are stored, by PASS.PORT or PASS.PORT.PART or a pattern, as --store"},
     {"size", "View size"},
     {"trace_size", "Size at which is traced"},
     {"general", "As if the scene had every feature, as --general"},

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/base/json_schema.hpp"
+#include "framework/graph/format.hpp"
 #include "framework/graph/graph_spec.hpp"
 #include "framework/study/study_keys.hpp"
 #include "framework/study/study_spec.hpp"
@@ -44,6 +45,7 @@ SchemaForms change_forms() {
           {"set", schema_reference("set")},
           {"disable", schema_reference("names")},
           {"swap", schema_reference("swap")},
+          {"formats", schema_reference("formats")},
           {"size", schema_reference("size")},
           {"trace_size", schema_reference("size")},
           {"general", flag_schema()}};
@@ -115,6 +117,7 @@ Json definitions() {
           {"seed", integer_schema(0, kLargestSeed)},
           {"set", scalars},
           {"swap", types},
+          {"formats", {{"type", "object"}, {"additionalProperties", {{"enum", format_names()}}}}},
           {"changes", object_schema(kChangeKeys, change_forms())},
           {"named_changes", named}};
 }

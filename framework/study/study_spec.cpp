@@ -25,6 +25,7 @@ Changes combine(Changes first, const Changes& second) {
   append(first.swaps, second.swaps);
   append(first.disables, second.disables);
   append(first.sets, second.sets);
+  append(first.formats, second.formats);
   if (second.size) first.size = second.size;
   if (second.trace_size) first.trace_size = second.trace_size;
   if (second.general) first.general = second.general;
@@ -37,6 +38,7 @@ LinkOptions link_options(const Changes& changes) {
   options.swaps = changes.swaps;
   options.disables = changes.disables;
   options.sets = changes.sets;
+  options.formats = changes.formats;
   options.view = changes.size;
   options.trace = changes.trace_size;
   options.general = changes.general.value_or(false);
@@ -55,6 +57,7 @@ std::vector<std::string> command_options(const Changes& changes) {
   for (const auto& [pass, type] : changes.swaps) add("--swap", pass + "=" + type);
   for (const std::string& glob : changes.disables) add("--disable", glob);
   for (const auto& [name, value] : changes.sets) add("--set", name + "=" + value);
+  for (const auto& [values, format] : changes.formats) add("--store", values + "=" + format);
   if (changes.general.value_or(false)) options.emplace_back("--general");
   return options;
 }

@@ -22,6 +22,7 @@ struct Changes {
   std::vector<std::pair<std::string, std::string>> swaps;  ///< pass glob, type
   std::vector<std::string> disables;                       ///< pass globs
   std::vector<std::pair<std::string, std::string>> sets;   ///< "PARAM" or "PASS.PARAM", value text
+  std::vector<std::pair<std::string, std::string>> formats;  ///< glob over values, name of a format
   std::optional<Size> size;
   std::optional<Size> trace_size;
   std::optional<bool> general;  ///< LinkOptions::general
