@@ -58,6 +58,7 @@ std::vector<std::string> port_notes(const Port& port) {
   else if (port.optional)
     notes.emplace_back("optional");
   if (port.array) notes.emplace_back("takes a history range @a..b");
+  if (!port.exact_format.empty()) notes.push_back("stored as it is: " + port.exact_format);
   if (port.persistent) notes.emplace_back("kept from frame to frame");
   if (port.direction != Direction::out) return notes;
   if (!port.bypass) {

@@ -175,7 +175,8 @@ void StudyOptions::add_to(Command& command) {
   constexpr const char* kChanges = "Changes to the graph, for all settings";
   group(command.option("--variant", variants, "Apply a variant that the graph declares"), kChanges).placeholder("NAME");
   group(command.option("--set", sets, "Set a parameter of the graph or of a pass"), kChanges);
-  group(command.option("--store", stores, "Format in which values are stored, by PASS.PORT or PASS.PORT.PART, or a pattern"),
+  group(command.option("--store", stores,
+                       "Format in which values are stored, by PASS.PORT or PASS.PORT.PART, or a pattern"),
         kChanges)
       .placeholder("GLOB=FORMAT");
   group(command.option("--disable", disables, "Disable the passes that match"), kChanges).placeholder("GLOB");

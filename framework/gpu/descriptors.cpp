@@ -111,7 +111,8 @@ class SetWriter {
                       : "reads floating point numbers and is given an image of unsigned integers");
     }
     if (binding.format && vulkan_format(*binding.format) != image.view.format)
-      fail(reflection_, binding, "names the format " + std::string(format_info(*binding.format).name) + " and is given another");
+      fail(reflection_, binding,
+           "names the format " + std::string(format_info(*binding.format).name) + " and is given another");
     if (binding.kind == BindingKind::combined_sampler && image.sampler == VK_NULL_HANDLE) {
       fail(reflection_, binding, "is given an image without a sampler");
     }

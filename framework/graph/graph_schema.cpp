@@ -1,7 +1,6 @@
 #include "framework/graph/graph_schema.hpp"
 
 #include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 #include "framework/base/json_schema.hpp"

@@ -22,8 +22,9 @@ struct TypeSet {
   std::string value;
 };
 
-/// What the command line asks for. Applied in this order: each variant in turn (its swap, disable, set, formats), then `swaps`,
-/// `type_sets`, `disables`, `sets`, `formats`. Problems are reported at file "--variant", "--swap", "--disable", "--set",
+/// What the command line asks for. Applied in this order: each variant in turn (its swap, disable, set, formats), then
+/// `swaps`, `type_sets`, `disables`, `sets`, `formats`. Problems are reported at file "--variant", "--swap",
+/// "--disable", "--set",
 /// "--store", "--dump", "--size", "--trace-size", line 0.
 struct LinkOptions {
   std::vector<std::string> variants;
@@ -33,8 +34,8 @@ struct LinkOptions {
   std::vector<std::pair<std::string, std::string>> sets;   ///< "PARAM" or "PASS.PARAM" (PASS a glob), value text
   /// Glob over "pass.port" and "pass.port.part", name of a format. Of several images those are stored so that can be.
   std::vector<std::pair<std::string, std::string>> formats;
-  std::optional<std::pair<uint32_t, uint32_t>> view;       ///< width, height [pixels]
-  std::optional<std::pair<uint32_t, uint32_t>> trace;      ///< the same of what is traced
+  std::optional<std::pair<uint32_t, uint32_t>> view;   ///< width, height [pixels]
+  std::optional<std::pair<uint32_t, uint32_t>> trace;  ///< the same of what is traced
   std::vector<std::string> captures;  ///< globs over "pass.port" and "pass.port.part"; "*" means every value
   bool hoist = true;                  ///< a pass whose result is the same in every frame runs in the first one alone
   bool general = false;  ///< as if the scene had every feature, and all of it changed: no `when` fails, shaders are

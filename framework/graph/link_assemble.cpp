@@ -40,9 +40,10 @@ class Assembler {
     const PortPart& part = image.port->parts[image.part];
     const std::optional<Extent3> extent = shapes_.extent_of(image);
     complete_ = complete_ && extent.has_value();
-    graph_.values.push_back({nodes_.list[image.node].spec->name, image.port->name, part.name,
-                             ImageDesc{nodes_.list[image.node].format_of(part), image.port->dimension, extent.value_or(Extent3{})}, constant, 0,
-                             image.port->direction == Direction::scratch, false});
+    graph_.values.push_back(
+        {nodes_.list[image.node].spec->name, image.port->name, part.name,
+         ImageDesc{nodes_.list[image.node].format_of(part), image.port->dimension, extent.value_or(Extent3{})},
+         constant, 0, image.port->direction == Direction::scratch, false});
     const auto id = static_cast<ValueId>(images_.size());
     images_.push_back(image);
     ids_.emplace(image, id);

@@ -103,15 +103,16 @@ class FormatResolver {
                        "', without output '" + wish.spec.values + "' and its format");
       return;
     }
-    report_.error("unknown-output", wish.spec.values_where,
-                  "pass '" + node.spec->name + "' of type '" + node.type->name + "' has no output " +
-                      in_quotes(wish.spec.values),
-                  did_you_mean(wish.spec.values, names, "its outputs"));
+    report_.error(
+        "unknown-output", wish.spec.values_where,
+        "pass '" + node.spec->name + "' of type '" + node.type->name + "' has no output " + in_quotes(wish.spec.values),
+        did_you_mean(wish.spec.values, names, "its outputs"));
   }
 
   /// Names the one that comes nearest.
   void refuse(const std::vector<Image>& images, Format format, const FormatWish& wish) {
-    const auto near = std::find_if(images.begin(), images.end(), [&](const Image& image) { return fits(image, format); });
+    const auto near =
+        std::find_if(images.begin(), images.end(), [&](const Image& image) { return fits(image, format); });
     const Image& image = near != images.end() ? *near : images.front();
     const std::string which = "'" + full_name(image) + "' is " + std::string(format_info(image.part->format).name) +
                               " and cannot be stored as " + std::string(format_info(format).name);

@@ -62,7 +62,7 @@ struct FormatWish {
 struct Nodes {
   std::vector<Node> list;
   std::vector<ScalarSpec> graph_params;
-  std::vector<FormatWish> formats;  ///< in the order in which they apply
+  std::vector<FormatWish> formats;                         ///< in the order in which they apply
   std::unordered_map<std::string_view, uint32_t> by_name;  ///< the file's names, which outlive the linking
   [[nodiscard]] std::vector<std::string> names() const;
 };

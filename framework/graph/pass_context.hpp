@@ -27,7 +27,8 @@ struct ShaderValue {
 /// (layers), `P_newest_layer` (layer of age 0), so that age a lies in layer (P_newest_layer + P_ring - a) % P_ring;
 /// where an optional one is unconnected, the count is 0; for an optional input P: `P_bound` (bool); for an output P:
 /// `P_wanted` (bool); for an image NAME of the shader, by the graph's choice of formats: `NAME_largest` (float, the
-/// largest finite number that a channel holds), `NAME_bits` (uint, of a channel). A name that nothing provides is an error.
+/// largest finite number that a channel holds), `NAME_bits` (uint, of a channel). A name that nothing provides is an
+/// error.
 struct Dispatch {
   std::string shader;  ///< file under shaders/, e.g. "box_blur.comp"
   Extent3 threads;

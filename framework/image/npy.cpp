@@ -42,9 +42,9 @@ std::string_view dtype(ChannelType type) {
 }
 
 std::optional<Format> find_format(std::string_view type, uint64_t channels) {
-  for (const Format format : {Format::r8_unorm, Format::rgba8_unorm, Format::rgba16_unorm, Format::r16_sfloat, Format::rg16_sfloat,
-                              Format::rgba16_sfloat, Format::r32_sfloat, Format::rg32_sfloat, Format::rgba32_sfloat,
-                              Format::r32_uint, Format::rg32_uint, Format::rgba32_uint}) {
+  for (const Format format : {Format::r8_unorm, Format::rgba8_unorm, Format::rgba16_unorm, Format::r16_sfloat,
+                              Format::rg16_sfloat, Format::rgba16_sfloat, Format::r32_sfloat, Format::rg32_sfloat,
+                              Format::rgba32_sfloat, Format::r32_uint, Format::rg32_uint, Format::rgba32_uint}) {
     if (dtype(channel_type(format)) == type && format_info(format).channels == channels) return format;
   }
   return std::nullopt;

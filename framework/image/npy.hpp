@@ -7,8 +7,8 @@
 namespace lightloom::image {
 
 /// Writes an image as a NumPy array (.npy, format version 1.0), whole or not at all: C order, shape (z, y, x, c) for 3D
-/// and (y, x, c) for 2D images; dtype |u1 for unorm8 (0..255), <u2 for unorm16 (0..65535), <f2, <f4, <u4 otherwise. `numpy.load` reads it.
-/// Throws Error (run_failed) where the file cannot be written.
+/// and (y, x, c) for 2D images; dtype |u1 for unorm8 (0..255), <u2 for unorm16 (0..65535), <f2, <f4, <u4 otherwise.
+/// `numpy.load` reads it. Throws Error (run_failed) where the file cannot be written.
 void write_npy(const std::filesystem::path& file, const HostImage& image);
 
 /// Reads what `write_npy` writes. Other dtypes, Fortran order, other ranks, channel counts that no texel format has,

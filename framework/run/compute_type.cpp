@@ -66,10 +66,9 @@ class ComputeParams {
 
   /// IMAGE_largest, IMAGE_bits.
   bool tells_storage(const std::string& name) const {
-    return std::any_of(shader_.reflection.bindings.begin(), shader_.reflection.bindings.end(),
-                       [&](const gpu::Binding& image) {
-                         return name == image.name + "_largest" || name == image.name + "_bits";
-                       });
+    return std::any_of(
+        shader_.reflection.bindings.begin(), shader_.reflection.bindings.end(),
+        [&](const gpu::Binding& image) { return name == image.name + "_largest" || name == image.name + "_bits"; });
   }
 
   void add(const std::string& name, gpu::ScalarType type, const std::string& kind,

@@ -123,7 +123,8 @@ Changes SpecReader::changes(const JsonNode& object, const std::string& what, Key
         read.swaps.emplace_back(member.key, member.value.string);
   if (const JsonNode* node = object.find("formats"); node && expect(*node, JsonKind::object, "'formats'"))
     for (const JsonMember& member : node->members)
-      if (expect(member.value, JsonKind::string, "a format")) read.formats.emplace_back(member.key, member.value.string);
+      if (expect(member.value, JsonKind::string, "a format"))
+        read.formats.emplace_back(member.key, member.value.string);
   read_size(object, "size", read.size);
   read_size(object, "trace_size", read.trace_size);
   if (object.find("general") != nullptr) {

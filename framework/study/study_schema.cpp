@@ -41,14 +41,10 @@ Json set_of(const Json& items) {
 }
 
 SchemaForms change_forms() {
-  return {{"variants", schema_reference("names")},
-          {"set", schema_reference("set")},
-          {"disable", schema_reference("names")},
-          {"swap", schema_reference("swap")},
-          {"formats", schema_reference("formats")},
-          {"size", schema_reference("size")},
-          {"trace_size", schema_reference("size")},
-          {"general", flag_schema()}};
+  return {{"variants", schema_reference("names")},  {"set", schema_reference("set")},
+          {"disable", schema_reference("names")},   {"swap", schema_reference("swap")},
+          {"formats", schema_reference("formats")}, {"size", schema_reference("size")},
+          {"trace_size", schema_reference("size")}, {"general", flag_schema()}};
 }
 
 SchemaForms operator+(SchemaForms one, const SchemaForms& other) {

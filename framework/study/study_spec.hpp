@@ -19,9 +19,9 @@ using Size = std::pair<uint32_t, uint32_t>;
 /// What is done to a graph. Later ones win where both say the same.
 struct Changes {
   std::vector<std::string> variants;
-  std::vector<std::pair<std::string, std::string>> swaps;  ///< pass glob, type
-  std::vector<std::string> disables;                       ///< pass globs
-  std::vector<std::pair<std::string, std::string>> sets;   ///< "PARAM" or "PASS.PARAM", value text
+  std::vector<std::pair<std::string, std::string>> swaps;    ///< pass glob, type
+  std::vector<std::string> disables;                         ///< pass globs
+  std::vector<std::pair<std::string, std::string>> sets;     ///< "PARAM" or "PASS.PARAM", value text
   std::vector<std::pair<std::string, std::string>> formats;  ///< glob over values, name of a format
   std::optional<Size> size;
   std::optional<Size> trace_size;
