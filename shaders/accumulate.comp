@@ -7,11 +7,14 @@
 #include "lib/compensated_sum.glsl"
 #include "lib/sampling.glsl"
 #include "lib/scene.glsl"
+#include "lib/storage.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(constant_id = 0) const bool standard_error_bound = true;
 layout(constant_id = 1) const bool standard_error_wanted = true;
+layout(constant_id = 2) const float out_radiance_largest = 65504.0;
+layout(constant_id = 3) const float out_standard_error_largest = 65504.0;
 
 uniform texture2D radiance;
 uniform texture2D standard_error;
@@ -93,6 +96,6 @@ void main() {
   imageStore(out_accumulation_sum_error, pixel, vec4(a.sum.error, a.surfaces));
   imageStore(out_accumulation_spread, pixel, vec4(a.spread.sum, a.unknown));
   imageStore(out_accumulation_spread_error, pixel, vec4(a.spread.error, 0.0));
-  imageStore(out_radiance, pixel, vec4(mean_of(a), a.surfaces));
-  if (standard_error_wanted) imageStore(out_standard_error, pixel, vec4(min(error_of_mean(a), kLargest), a.frames));
+  imageStore(out_radiance, pixel, storable(vec4(mean_of(a), a.surfaces), out_radiance_largest));
+  if (standard_error_wanted) imageStore(out_standard_error, pixel, storable(vec4(min(error_of_mean(a), kLargest), a.frames), out_standard_error_largest));
 }

@@ -4,10 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/neighbour.glsl"
+#include "lib/storage.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform writeonly image2D out_radiance;
+
+layout(constant_id = 11) const float out_radiance_largest = 65504.0;
 
 layout(constant_id = 10) const uint cutoff = 0u;   // 0: radial, 1: elliptic
 
@@ -41,7 +44,7 @@ void main() {
                                   full_width_error, difference_limit);
   Centre centre;
   if (!load_centre(pixel, shape, centre)) {
-    imageStore(out_radiance, pixel, centre.radiance);
+    imageStore(out_radiance, pixel, storable(centre.radiance, out_radiance_largest));
     return;
   }
   ivec2 direction = axis == 0u ? ivec2(1, 0) : ivec2(0, 1);
@@ -51,5 +54,5 @@ void main() {
     add_within_cutoff(centre, pixel + direction * k, sum);
     add_within_cutoff(centre, pixel - direction * k, sum);
   }
-  imageStore(out_radiance, pixel, vec4(sum.rgb / sum.a, centre.radiance.a));
+  imageStore(out_radiance, pixel, storable(vec4(sum.rgb / sum.a, centre.radiance.a), out_radiance_largest));
 }

@@ -4,10 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/neighbour.glsl"
+#include "lib/storage.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform writeonly image2D out_radiance;
+
+layout(constant_id = 11) const float out_radiance_largest = 65504.0;
 
 layout(push_constant) uniform Params {
   uint axis;   // 0: tangent, 1: bitangent
@@ -46,7 +49,7 @@ void main() {
                                   full_width_error, difference_limit);
   Centre centre;
   if (!load_centre(pixel, shape, centre)) {
-    imageStore(out_radiance, pixel, centre.radiance);
+    imageStore(out_radiance, pixel, storable(centre.radiance, out_radiance_largest));
     return;
   }
   vec3 direction = axis == 0u ? centre.tangent : centre.bitangent;
@@ -54,5 +57,5 @@ void main() {
   vec4 sum = vec4(centre.radiance.rgb, 1.0);
   march_side(centre, direction, reach_along, sum);
   march_side(centre, -direction, reach_along, sum);
-  imageStore(out_radiance, pixel, vec4(sum.rgb / sum.a, centre.radiance.a));
+  imageStore(out_radiance, pixel, storable(vec4(sum.rgb / sum.a, centre.radiance.a), out_radiance_largest));
 }

@@ -4,6 +4,7 @@
 
 #include "lib/material.glsl"
 #include "lib/shading_frame.glsl"
+#include "lib/storage.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -23,6 +24,14 @@ layout(location = 4) out vec4 out_surface_albedo;
 layout(location = 5) out vec4 out_surface_material;
 layout(location = 6) out vec4 out_surface_emission;
 layout(location = 7) out uvec4 out_surface_id;
+
+layout(constant_id = 0) const float out_surface_position_largest = 65504.0;
+layout(constant_id = 1) const float out_surface_normal_largest = 65504.0;
+layout(constant_id = 2) const float out_surface_geometric_normal_largest = 65504.0;
+layout(constant_id = 3) const float out_surface_tangent_largest = 65504.0;
+layout(constant_id = 4) const float out_surface_albedo_largest = 65504.0;
+layout(constant_id = 5) const float out_surface_material_largest = 65504.0;
+layout(constant_id = 6) const float out_surface_emission_largest = 65504.0;
 
 const float kHalfMax = 65504.0;
 
@@ -51,4 +60,12 @@ void main() {
   out_surface_material = vec4(m.ward_alpha, m.f0, m.f90);
   out_surface_emission = vec4(min(m.emission, vec3(kHalfMax)), m.unlit ? 1.0 : 0.0);
   out_surface_id = uvec4(ids.y + 1u, id, ids.z, packUnorm2x16(weights));
+
+  out_surface_position = storable(out_surface_position, out_surface_position_largest);
+  out_surface_normal = storable(out_surface_normal, out_surface_normal_largest);
+  out_surface_geometric_normal = storable(out_surface_geometric_normal, out_surface_geometric_normal_largest);
+  out_surface_tangent = storable(out_surface_tangent, out_surface_tangent_largest);
+  out_surface_albedo = storable(out_surface_albedo, out_surface_albedo_largest);
+  out_surface_material = storable(out_surface_material, out_surface_material_largest);
+  out_surface_emission = storable(out_surface_emission, out_surface_emission_largest);
 }

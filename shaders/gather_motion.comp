@@ -5,12 +5,15 @@
 
 #include "lib/filter.glsl"
 #include "lib/motion.glsl"
+#include "lib/storage.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform texture2D out_surface_position;   // outputs of the draw before
 uniform utexture2D out_surface_id;
 uniform writeonly image2D out_motion;
+
+layout(constant_id = 0) const float out_motion_largest = 65504.0;
 
 // Direction that a perspective camera sees at a place in clip space. The rows of its matrix that give x, y and w are
 // orthogonal; the inverse would lose digits to the ratio of the near and far planes.
@@ -41,5 +44,5 @@ void main() {
     vec4 direction = vec4(view_direction((vec2(pixel) + 0.5) / vec2(size) * 2.0 - 1.0), 0.0);
     motion = screen_motion(direction, direction, vec2(size));
   }
-  imageStore(out_motion, pixel, vec4(frame.ids.z > 0u ? motion : vec2(0.0), 0.0, 0.0));
+  imageStore(out_motion, pixel, storable(vec4(frame.ids.z > 0u ? motion : vec2(0.0), 0.0, 0.0), out_motion_largest));
 }

@@ -7,11 +7,13 @@
 #include "lib/modulation.glsl"
 #include "lib/sampling.glsl"
 #include "lib/scene.glsl"
+#include "lib/storage.glsl"
 #include "lib/view_ray.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(constant_id = 0) const bool specular_bound = false;
+layout(constant_id = 1) const float out_radiance_largest = 65504.0;
 
 uniform texture2D radiance;
 uniform texture2D specular;
@@ -49,5 +51,5 @@ void main() {
   vec4 position = texelFetch(surface_position, pixel, 0);
   vec4 result = position.w > 0.0 ? vec4(surface_radiance(pixel, position.xyz), 1.0)
                                  : vec4(environment_radiance(view_ray(pixel, size).direction), 0.0);
-  imageStore(out_radiance, pixel, result);
+  imageStore(out_radiance, pixel, storable(result, out_radiance_largest));
 }

@@ -9,6 +9,7 @@
 #include "lib/motion.glsl"
 #include "lib/sampling.glsl"
 #include "lib/scene.glsl"
+#include "lib/storage.glsl"
 #include "lib/variance.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -16,6 +17,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const bool trail_id_bound = true;
 layout(constant_id = 2) const bool variance_wanted = true;
+layout(constant_id = 3) const float out_radiance_largest = 65504.0;
+layout(constant_id = 4) const float out_variance_largest = 65504.0;
 
 uniform texture2D radiance;
 uniform texture2D surface_position;
@@ -143,7 +146,7 @@ void main() {
   vec4 current = texelFetch(radiance, pixel, 0);
   vec4 position = texelFetch(surface_position, pixel, 0);
   if (!(position.w > 0.0 && current.a > 0.0)) {
-    imageStore(out_radiance, pixel, vec4(current.rgb, 0.0));
+    imageStore(out_radiance, pixel, storable(vec4(current.rgb, 0.0), out_radiance_largest));
     if (variance_wanted) imageStore(out_variance, pixel, vec4(0.0));
     return;
   }
@@ -160,10 +163,10 @@ void main() {
     vec4 past = texelFetch(trail, ivec3(earlier, layer_of(trail_newest_layer, trail_ring, age)), 0);
     if (past.a > 0.0) add_frame(past.rgb, weight, sum, moments);
   }
-  imageStore(out_radiance, pixel, vec4(sum / max(moments.weight, 1e-30), moments.weight));
+  imageStore(out_radiance, pixel, storable(vec4(sum / max(moments.weight, 1e-30), moments.weight), out_radiance_largest));
   if (!variance_wanted) return;
   float variance = effective_count(moments) < kLeastFrames ? neighbourhood_variance(pixel, point, size)
                                                            : sample_variance(moments);
   variance = mean_variance(moments, variance);
-  imageStore(out_variance, pixel, vec4(is_finite(variance) ? variance : kUnknownVariance));
+  imageStore(out_variance, pixel, storable(vec4(is_finite(variance) ? variance : kUnknownVariance), out_variance_largest));
 }

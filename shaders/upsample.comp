@@ -6,12 +6,15 @@
 #include "lib/features.glsl"
 #include "lib/filter.glsl"
 #include "lib/scene.glsl"
+#include "lib/storage.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(constant_id = 0) const uint filter_kind = 0u;   // the param `filter`, a word that GLSL reserves; 0: bilateral, 1: nearest
 layout(constant_id = 1) const bool specular_bound = false;
 layout(constant_id = 2) const bool specular_wanted = false;
+layout(constant_id = 3) const float out_radiance_largest = 65504.0;
+layout(constant_id = 4) const float out_specular_largest = 65504.0;
 
 uniform texture2D radiance;
 uniform texture2D specular;
@@ -169,6 +172,6 @@ void main() {
     bool blended = filter_kind == 0u && blend(wanted, base, fraction, result);
     if (!blended) result = search(wanted, place / (2 * size));
   }
-  imageStore(out_radiance, pixel, result.radiance);
-  if (specular_wanted) imageStore(out_specular, pixel, result.specular);
+  imageStore(out_radiance, pixel, storable(result.radiance, out_radiance_largest));
+  if (specular_wanted) imageStore(out_specular, pixel, storable(result.specular, out_specular_largest));
 }

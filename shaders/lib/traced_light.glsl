@@ -5,6 +5,7 @@
 
 #include "lib/modulation.glsl"
 #include "lib/path_vertex.glsl"
+#include "lib/storage.glsl"
 
 uniform writeonly image2D out_radiance;
 uniform writeonly image2D out_diffuse;
@@ -13,6 +14,9 @@ uniform writeonly image2D out_specular;
 layout(constant_id = 0) const bool radiance_wanted = true;
 layout(constant_id = 1) const bool diffuse_wanted = true;
 layout(constant_id = 2) const bool specular_wanted = true;
+layout(constant_id = 4) const float out_radiance_largest = 65504.0;
+layout(constant_id = 5) const float out_diffuse_largest = 65504.0;
+layout(constant_id = 6) const float out_specular_largest = 65504.0;
 
 struct TracedLight {
   vec3 radiance;
@@ -33,9 +37,9 @@ void add_path(inout TracedLight sum, PathVertex first, PerLobe light) {
 
 void store_light(ivec2 pixel, TracedLight sum, uint paths, bool lit) {
   float coverage = lit ? 1.0 : 0.0;
-  if (radiance_wanted) imageStore(out_radiance, pixel, vec4(sum.radiance / float(paths), coverage));
-  if (diffuse_wanted) imageStore(out_diffuse, pixel, vec4(sum.lobes.diffuse / float(paths), coverage));
-  if (specular_wanted) imageStore(out_specular, pixel, vec4(sum.lobes.specular / float(paths), coverage));
+  if (radiance_wanted) imageStore(out_radiance, pixel, storable(vec4(sum.radiance / float(paths), coverage), out_radiance_largest));
+  if (diffuse_wanted) imageStore(out_diffuse, pixel, storable(vec4(sum.lobes.diffuse / float(paths), coverage), out_diffuse_largest));
+  if (specular_wanted) imageStore(out_specular, pixel, storable(vec4(sum.lobes.specular / float(paths), coverage), out_specular_largest));
 }
 
 #endif
