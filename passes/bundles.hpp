@@ -27,7 +27,8 @@ inline std::vector<PortPart> surface_parts() {
   };
 }
 
-/// The paper's three RGBA8 images of the voxel grid (section 2.1); encodings in shaders/lib/voxel_encoding.glsl. A
+/// The paper's three RGBA8 images of the voxel grid (section 2.1), 16 bits a channel where the graph stores them so;
+/// encodings of both in shaders/lib/voxel_encoding.glsl. A
 /// voxel has no side: its normal is that of the front face, and a reader turns it to where its ray came from.
 inline std::vector<PortPart> voxel_parts() {
   return {

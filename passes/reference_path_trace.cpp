@@ -1,7 +1,10 @@
 #include "passes/reference_path_trace.hpp"
 
 #include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "framework/base/error.hpp"
 #include "framework/reference/trace_image.hpp"
@@ -85,33 +88,62 @@ std::vector<Param> params() {
   };
 }
 
-template <class T>
-std::span<const T> texels_of(HostContext& context, const char* part) {
-  const std::span<const std::byte> bytes = context.input("surface", part).texels;
-  return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
+/// Four floats a pixel, whether they are stored in 16 bits or in 32.
+std::vector<glm::vec4> numbers_of(HostContext& context, const char* part) {
+  const HostInput input = context.input("surface", part);
+  const size_t pixels = size_t{input.extent.width} * input.extent.height;
+  std::vector<glm::vec4> numbers(pixels);
+  if (channel_bits(input.format) == 32) {
+    std::memcpy(numbers.data(), input.texels.data(), pixels * sizeof(glm::vec4));
+    return numbers;
+  }
+  for (size_t i = 0; i < pixels; ++i) {
+    uint64_t halves = 0;
+    std::memcpy(&halves, input.texels.data() + i * sizeof halves, sizeof halves);
+    numbers[i] = glm::unpackHalf4x16(halves);
+  }
+  return numbers;
 }
 
-reference::SurfaceImages surface_images(HostContext& context) {
-  const Extent3 extent = context.input("surface", "position").extent;
-  return {.width = extent.width,
-          .height = extent.height,
-          .position = texels_of<glm::vec4>(context, "position"),
-          .id = texels_of<glm::uvec4>(context, "id"),
-          .normal = texels_of<uint16_t>(context, "normal"),
-          .albedo = texels_of<uint16_t>(context, "albedo"),
-          .material = texels_of<uint16_t>(context, "material")};
-}
+/// The G-buffer on the host, in whatever formats the graph stores it.
+struct SurfaceTexels {
+  explicit SurfaceTexels(HostContext& context)
+      : extent(context.input("surface", "position").extent),
+        position(numbers_of(context, "position")),
+        normal(numbers_of(context, "normal")),
+        albedo(numbers_of(context, "albedo")),
+        material(numbers_of(context, "material")),
+        id(context.input("surface", "id").texels) {}
+
+  [[nodiscard]] reference::SurfaceImages images() const {
+    return {.width = extent.width,
+            .height = extent.height,
+            .position = position,
+            .id = {reinterpret_cast<const glm::uvec4*>(id.data()), id.size() / sizeof(glm::uvec4)},
+            .normal = normal,
+            .albedo = albedo,
+            .material = material};
+  }
+
+  Extent3 extent;
+  std::vector<glm::vec4> position, normal, albedo, material;
+  std::span<const std::byte> id;
+};
 
 reference::VoxelImages voxel_images(HostContext& context) {
   const auto bytes = [&](const char* part) {
     const std::span<const std::byte> texels = context.input("voxels", part).texels;
     return std::span(reinterpret_cast<const uint8_t*>(texels.data()), texels.size());
   };
+  const auto bits = [&](const char* part) { return channel_bits(context.input("voxels", part).format); };
   const Extent3 extent = context.input("voxels", "albedo").extent;
   return {.extent = {extent.width, extent.height, extent.depth},
           .albedo = bytes("albedo"),
           .normal = bytes("normal"),
-          .material = bytes("material")};
+          .material = bytes("material"),
+          .albedo_bits = bits("albedo"),
+          .normal_bits = bits("normal"),
+          .material_bits = bits("material")};
 }
 
 /// Of the triangles of each entry [m^2]; empty where voxels emit what the material says, however large they are.
@@ -143,21 +175,33 @@ class Outputs {
  public:
   Outputs(HostContext& context, uint32_t width) : width_(width) {
     for (size_t i = 0; i < kNames.size(); ++i)
-      if (context.wanted(kNames[i])) texels_[i] = context.output(kNames[i], "").texels;
+      if (context.wanted(kNames[i])) outputs_[i] = context.output(kNames[i], "");
   }
 
   void write(uint32_t x, uint32_t y, const reference::TracedPixel& pixel) const {
     const std::array<glm::vec4, kNames.size()> values{
         glm::vec4(pixel.radiance, pixel.lit), glm::vec4(pixel.diffuse, pixel.lit), glm::vec4(pixel.specular, pixel.lit),
         glm::vec4(pixel.outgoing, pixel.covered), glm::vec4(pixel.standard_error, 1)};
-    const size_t offset = (size_t{y} * width_ + x) * sizeof(glm::vec4);
+    const size_t index = size_t{y} * width_ + x;
     for (size_t i = 0; i < values.size(); ++i)
-      if (!texels_[i].empty()) std::memcpy(texels_[i].data() + offset, &values[i], sizeof(glm::vec4));
+      if (!outputs_[i].texels.empty()) store(outputs_[i], index, values[i]);
   }
 
  private:
   static constexpr std::array<const char*, 5> kNames{"radiance", "diffuse", "specular", "outgoing", "standard_error"};
-  std::array<std::span<std::byte>, kNames.size()> texels_;
+
+  /// What is larger than a half float is stored as the largest of them, as shaders/lib/storage.glsl does.
+  static void store(const HostOutput& output, size_t pixel, const glm::vec4& value) {
+    if (channel_bits(output.format) == 32) {
+      std::memcpy(output.texels.data() + pixel * sizeof value, &value, sizeof value);
+      return;
+    }
+    const float largest = largest_number(output.format);
+    const uint64_t halves = glm::packHalf4x16(glm::clamp(value, -largest, largest));
+    std::memcpy(output.texels.data() + pixel * sizeof halves, &halves, sizeof halves);
+  }
+
+  std::array<HostOutput, kNames.size()> outputs_;
   uint32_t width_;
 };
 
@@ -185,7 +229,8 @@ void trace(HostContext& context) {
   const reference::PixelCamera camera(frame.camera, frame.view_width, frame.view_height, frame.scene->bounds);
 
   const bool has_surface = context.connected("surface");
-  const reference::SurfaceImages surface = has_surface ? surface_images(context) : reference::SurfaceImages{};
+  const std::optional<SurfaceTexels> texels = has_surface ? std::optional<SurfaceTexels>(context) : std::nullopt;
+  const reference::SurfaceImages surface = texels ? texels->images() : reference::SurfaceImages{};
   const Extent3 extent =
       has_surface ? Extent3{surface.width, surface.height, 1} : Extent3{frame.view_width, frame.view_height, 1};
   const bool box = context.params().choice("pixel_filter") == "box";

@@ -7,6 +7,7 @@
 
 #include "lib/emissive_faces.glsl"
 #include "lib/features.glsl"
+#include "lib/voxel_bits.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -44,7 +45,7 @@ void main() {
     ivec3 voxel = ivec3(column, z);
     uint emission = from_unorm(texelFetch(voxels_material, voxel, 0).a);
     if (emission == 0u || voxel_is_empty(voxels_albedo, voxel)) continue;
-    vec3 normal = decode_voxel_normal(texelFetch(voxels_normal, voxel, 0));
+    vec3 normal = decode_voxel_normal(texelFetch(voxels_normal, voxel, 0), voxels_normal_bits);
     if (emission != power_emission) {
       add_power(power_emission, power);
       power_emission = emission;

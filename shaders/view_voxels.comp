@@ -7,6 +7,7 @@
 #include "lib/grid.glsl"
 #include "lib/march.glsl"
 #include "lib/view_ray.glsl"
+#include "lib/voxel_bits.glsl"
 #include "lib/voxel_encoding.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -39,7 +40,8 @@ vec3 distance_color(float voxels) {
 
 vec3 voxel_color(ivec3 voxel) {
   vec4 material = texelFetch(voxels_material, voxel, 0);
-  VoxelSurface surface = decode_voxel(texelFetch(voxels_albedo, voxel, 0), texelFetch(voxels_normal, voxel, 0), material);
+  VoxelSurface surface = decode_voxel(texelFetch(voxels_albedo, voxel, 0), texelFetch(voxels_normal, voxel, 0), material,
+                                      voxels_normal_bits);
   if (show == kShowNormal) return surface.normal * 0.5 + 0.5;
   if (show == kShowTangent) return surface.tangent * 0.5 + 0.5;
   if (show == kShowMaterial) return material.rgb;

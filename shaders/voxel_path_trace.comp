@@ -12,6 +12,7 @@
 #include "lib/lights.glsl"
 #include "lib/ray_start.glsl"
 #include "lib/traced_light.glsl"
+#include "lib/voxel_bits.glsl"
 #include "lib/voxel_encoding.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -82,7 +83,7 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
     }
     VoxelSurface surface =
         decode_voxel(texelFetch(voxels_albedo, hit.voxel, 0), texelFetch(voxels_normal, hit.voxel, 0),
-                     texelFetch(voxels_material, hit.voxel, 0));
+                     texelFetch(voxels_material, hit.voxel, 0), voxels_normal_bits);
     vec3 from = vertex.position;
     vec3 origin = vertex.origin;
     least_alpha = max(least_alpha, min(scatter.roughness, regularization));

@@ -15,6 +15,10 @@ uniform writeonly image3D out_voxels_albedo;
 uniform writeonly image3D out_voxels_normal;
 uniform writeonly image3D out_voxels_material;
 
+layout(constant_id = 0) const uint out_voxels_albedo_bits = 8u;
+layout(constant_id = 1) const uint out_voxels_normal_bits = 8u;
+layout(constant_id = 2) const uint out_voxels_material_bits = 8u;
+
 const int kVoxelsAlone = 16;   // as in passes/voxelize.cpp
 
 VoxelSurface surface_in_voxel(Grid grid, Triangle t, ivec3 voxel) {
@@ -45,7 +49,8 @@ VoxelSurface surface_in_voxel(Grid grid, Triangle t, ivec3 voxel) {
 
 void resolve(Grid grid, ivec3 voxel) {
   vec4 albedo, normal, material;
-  encode_voxel(surface_in_voxel(grid, triangles[owner_triangle(imageLoad(owner, voxel).x)], voxel), albedo, normal, material);
+  encode_voxel(surface_in_voxel(grid, triangles[owner_triangle(imageLoad(owner, voxel).x)], voxel),
+               uvec3(out_voxels_albedo_bits, out_voxels_normal_bits, out_voxels_material_bits), albedo, normal, material);
   imageStore(out_voxels_albedo, voxel, albedo);
   imageStore(out_voxels_normal, voxel, normal);
   imageStore(out_voxels_material, voxel, material);

@@ -1,7 +1,6 @@
 #include "framework/reference/first_hits.hpp"
 
 #include <algorithm>
-#include <glm/gtc/packing.hpp>
 
 #include "framework/base/error.hpp"
 
@@ -14,11 +13,6 @@ void set_modulation(FirstHit& hit, const Reflectance& reflectance, float cosine)
   const Lobes fractions = reflected_fractions(reflectance, cosine);
   hit.modulation = {glm::max(fractions.diffuse, kLeastModulation), glm::max(fractions.specular, kLeastModulation)};
   hit.modulation_sum = glm::max(fractions.sum(), kLeastModulation);
-}
-
-glm::vec4 halves(std::span<const uint16_t> texels, size_t pixel) {
-  const uint16_t* h = &texels[pixel * 4];
-  return {glm::unpackHalf1x16(h[0]), glm::unpackHalf1x16(h[1]), glm::unpackHalf1x16(h[2]), glm::unpackHalf1x16(h[3])};
 }
 
 }  // namespace
@@ -53,9 +47,9 @@ FirstHit hit_of_surface(const TriangleGeometry& geometry, const PixelCamera& cam
   const std::optional<TrianglePoint> point = geometry.triangles().on_triangle(triangle, hit.ray);
   if (!point) return hit;
   hit.surface = geometry.seen_surface(camera, hit.ray, *point);
-  const glm::vec4 albedo = halves(images.albedo, pixel), material = halves(images.material, pixel);
+  const glm::vec4 albedo = images.albedo[pixel], material = images.material[pixel];
   const glm::vec3 to_viewer = camera.to_viewer(glm::vec3(position));
-  const glm::vec3 normal = facing(glm::normalize(glm::vec3(halves(images.normal, pixel))), to_viewer);
+  const glm::vec3 normal = facing(glm::normalize(glm::vec3(images.normal[pixel])), to_viewer);
   set_modulation(hit, {glm::vec3(albedo), albedo.w, material.z, material.w, glm::vec2(material)},
                  glm::dot(normal, to_viewer));
   return hit;

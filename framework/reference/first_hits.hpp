@@ -15,9 +15,9 @@ struct SurfaceImages {
   uint32_t width = 0, height = 0;
   std::span<const glm::vec4> position;  ///< xyz [m]; w: view depth, 0 for the background
   std::span<const glm::uvec4> id;       ///< z: index of the triangle
-  std::span<const uint16_t> normal;     ///< four halves a pixel: shading normal, 1
-  std::span<const uint16_t> albedo;     ///< base colour, metallic
-  std::span<const uint16_t> material;   ///< alpha x, alpha y, F0, F90
+  std::span<const glm::vec4> normal;    ///< shading normal, 1
+  std::span<const glm::vec4> albedo;    ///< base colour, metallic
+  std::span<const glm::vec4> material;  ///< alpha x, alpha y, F0, F90
 };
 
 /// Where the paths of a pixel start.

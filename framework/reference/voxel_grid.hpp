@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
@@ -12,10 +13,12 @@
 
 namespace lightloom::reference {
 
-/// The images of a voxel grid (bundle `voxels`): four bytes a voxel, x fastest, then y, then z.
+/// The images of a voxel grid (bundle `voxels`): four channels a voxel, of 8 bits or of 16 (low byte first), x fastest,
+/// then y, then z.
 struct VoxelImages {
   glm::ivec3 extent{1};
   std::span<const uint8_t> albedo, normal, material;
+  uint32_t albedo_bits = 8, normal_bits = 8, material_bits = 8;
 };
 
 /// What a voxel holds.
@@ -54,7 +57,11 @@ class VoxelGrid {
   [[nodiscard]] glm::dvec3 to_grid(const glm::vec3& world) const { return (glm::dvec3(world) - origin_) / voxel_size_; }
   [[nodiscard]] glm::vec3 to_world(const glm::dvec3& place) const { return glm::vec3(origin_ + place * voxel_size_); }
 
+  /// Channels of a voxel in one of the images, as they are stored.
+  using Texel = std::array<uint32_t, 4>;
+
  private:
+  [[nodiscard]] static Texel texel(std::span<const uint8_t> image, uint32_t bits, size_t index);
   [[nodiscard]] bool inside(const glm::ivec3& voxel) const {
     return glm::all(glm::greaterThanEqual(voxel, glm::ivec3(0))) && glm::all(glm::lessThan(voxel, images_.extent));
   }

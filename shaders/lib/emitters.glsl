@@ -12,6 +12,7 @@
 #include "lib/hints.glsl"
 #include "lib/light_visibility.glsl"
 #include "lib/random.glsl"
+#include "lib/voxel_bits.glsl"
 
 const uint kNeeHints = 0u;
 const uint kNeeVoxelFaces = 1u;
@@ -78,7 +79,7 @@ PerLobe face_light(Grid grid, texture3D distance_field, texture3D normals, textu
   vec3 direction = path / max(t, 1e-20);
   float pdf = face_solid_angle_pdf(float(entry.y - before) / float(head.y), t, -dot(vec3(face), direction));
   uint emission = from_unorm(texelFetch(materials, voxel, 0).a);
-  vec3 normal = decode_voxel_normal(texelFetch(normals, voxel, 0));
+  vec3 normal = decode_voxel_normal(texelFetch(normals, voxel, 0), voxels_normal_bits);
   if (pdf <= 0.0 || !emits_along(emission, normal, direction)) return kNoLight;
   PerLobe reflected = reflectance_towards(vertex, direction);
   if (is_black(reflected)) return kNoLight;

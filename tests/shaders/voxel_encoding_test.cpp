@@ -44,10 +44,10 @@ void evaluate(uint index) {
   s.f90 = 1.0;
   s.emission = uint(inputs[at + 14]);
   vec4 words[3];
-  encode_voxel(s, words[0], words[1], words[2]);
+  encode_voxel(s, uvec3(8u), words[0], words[1], words[2]);
   uint o = 27 * index;
   for (uint i = 0; i < 12; ++i) outputs[o + i] = float(from_unorm(words[i / 4][i % 4]));
-  VoxelSurface d = decode_voxel(words[0], words[1], words[2]);
+  VoxelSurface d = decode_voxel(words[0], words[1], words[2], 8u);
   o += 12;
   for (uint i = 0; i < 3; ++i) {
     outputs[o + i] = d.albedo[i];
@@ -251,13 +251,13 @@ void evaluate(uint index) {
   uint tangent_code = (index * 37u + (index >> 8) * 11u) & 255u;
   vec3 normal, x, y, tangent;
   float handedness;
-  decode_normal_frame(code, normal, x, y);
-  decode_tangent(tangent_code, x, y, tangent, handedness);
+  decode_normal_frame(code, 8u, normal, x, y);
+  decode_tangent(tangent_code, 8u, x, y, tangent, handedness);
   float worst = max(abs(dot(normal, normal) - 1.0), max(abs(dot(x, x) - 1.0), abs(dot(tangent, tangent) - 1.0)));
   worst = max(worst, max(length(cross(x, y) - normal), abs(dot(tangent, normal))));
   outputs[3 * index] = worst;
-  outputs[3 * index + 1] = encode_normal(normal) == code ? 1.0 : 0.0;
-  outputs[3 * index + 2] = encode_tangent(code, tangent, handedness) == tangent_code ? 1.0 : 0.0;
+  outputs[3 * index + 1] = encode_normal(normal, 8u) == code ? 1.0 : 0.0;
+  outputs[3 * index + 2] = encode_tangent(code, 8u, tangent, handedness) == tangent_code ? 1.0 : 0.0;
 })";
   const std::vector<float> out = run_snippet(device(), body, {}, 3 * 65536, 65536);
   for (uint32_t index = 0; index < 65536; ++index) {
