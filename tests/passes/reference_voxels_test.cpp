@@ -31,8 +31,10 @@ std::string both_tracers(const std::string& device_params, const std::string& ho
 
 class ReferenceVoxels : public DeviceTest {
  protected:
-  static void expect_tracers_agree(const scene::Scene& scene, const std::string& params) {
+  using Formats = std::vector<std::pair<std::string, std::string>>;
+  static void expect_tracers_agree(const scene::Scene& scene, const std::string& params, const Formats& formats = {}) {
     GraphRunOptions options;
+    options.link.formats = formats;
     options.frames = 14;
     const std::vector<Images> frames =
         run_graph(graph_text(kSize, kSize, kSize, kSize, both_tracers(params, params),
@@ -88,6 +90,13 @@ TEST_F(ReferenceVoxels, InACornellBox) {
 TEST_F(ReferenceVoxels, WithGlossySurfaces) {
   for (const char* ward : {"bounded", "1992"})
     expect_tracers_agree(cornell(true, true), std::string(R"(, "bounces": 2, "ward": ")") + ward + "\"");
+}
+
+TEST_F(ReferenceVoxels, HoweverTheyAreStored) {
+  expect_tracers_agree(cornell(true, true), R"(, "bounces": 2)",
+                       {{"voxelize.voxels", "rgba16_unorm"}, {"gather.surface", "rgba32_sfloat"}});
+  expect_tracers_agree(cornell(true, true), R"(, "bounces": 2)",
+                       {{"voxelize.voxels.normal", "rgba16_unorm"}, {"host.*", "rgba16_sfloat"}});
 }
 
 TEST_F(ReferenceVoxels, WhoeverFindsTheLight) {
