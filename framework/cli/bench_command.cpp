@@ -5,6 +5,7 @@
 #include <ostream>
 #include <utility>
 
+#include "framework/base/interrupt.hpp"
 #include "framework/base/progress.hpp"
 #include "framework/base/text.hpp"
 #include "framework/cli/bench_report.hpp"
@@ -101,6 +102,7 @@ std::optional<study::RayCounts> count_rays(const BenchOptions& options, const Co
 }
 
 ExitCode bench(const BenchOptions& options, const CommandContext& context, const std::vector<std::string>& arguments) {
+  const InterruptRequests interrupts;
   study::BenchRecord record;
   record.command_line = {"lightloom"};
   record.command_line.insert(record.command_line.end(), arguments.begin(), arguments.end());

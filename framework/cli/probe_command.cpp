@@ -1,6 +1,7 @@
 #include <memory>
 #include <ostream>
 
+#include "framework/base/interrupt.hpp"
 #include "framework/base/progress.hpp"
 #include "framework/base/text.hpp"
 #include "framework/cli/commands.hpp"
@@ -36,6 +37,7 @@ std::string parse_pixel(std::string_view text, Pixel& pixel) {
 }
 
 ExitCode probe(const ProbeOptions& options, const CommandContext& context) {
+  const InterruptRequests interrupts;
   Pixel pixel;
   static_cast<void>(parse_pixel(options.pixel, pixel));
   run::ProbeRequest request{

@@ -3,6 +3,7 @@
 #include <exception>
 #include <ostream>
 
+#include "framework/base/interrupt.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/messages.hpp"
 #include "framework/run/version.hpp"
@@ -11,7 +12,8 @@ namespace lightloom::cli {
 namespace {
 
 constexpr std::string_view kEpilog =
-    R"(Exit codes: 0 done, 1 run failed, 2 wrong usage, 3 invalid graph or scene, 4 no usable device.
+    R"(Exit codes: 0 done, 1 run failed, 2 wrong usage, 3 invalid graph or scene, 4 no usable device,
+128 + N interrupted by signal N (130 for Ctrl-C).
 
 Examples:
   lightloom render graphs/paper.json --scene samples/scenes/atrium.scene.json --out out/atrium
@@ -72,6 +74,9 @@ ExitCode run_program(const std::vector<std::string>& arguments, const CommandCon
   } catch (const Error& error) {
     print_error(context.err, error.what(), error.hint());
     return error.code();
+  } catch (const Interrupted& interrupted) {
+    print_error(context.err, "interrupted by " + signal_name(interrupted.signal()), "");
+    return interrupted_code(interrupted.signal());
   } catch (const std::bad_alloc&) {
     print_error(context.err, "there is not enough memory", "a smaller --size or --set resolution=N needs less");
   } catch (const std::exception& error) {

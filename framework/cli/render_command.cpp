@@ -3,6 +3,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "framework/base/interrupt.hpp"
 #include "framework/base/progress.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/messages.hpp"
@@ -78,8 +79,19 @@ void report(const run::RenderSummary& summary, std::ostream& out) {
   if (!summary.images.empty()) out << summary.images.back().string() << '\n';
 }
 
+ExitCode interrupted(const run::RenderSummary& summary, uint32_t wanted, bool has_checkpoint,
+                     const CommandContext& context) {
+  print_error(context.err,
+              "interrupted by " + signal_name(summary.interrupted_by) + " after " + std::to_string(summary.frames) +
+                  " of " + std::to_string(wanted) + " frames, which are whole",
+              has_checkpoint ? "the same command with --resume goes on from the last checkpoint"
+                             : "with --checkpoint, a render can go on where it was stopped");
+  return interrupted_code(summary.interrupted_by);
+}
+
 ExitCode render(const RenderOptions& options, const CommandContext& context,
                 const std::vector<std::string>& arguments) {
+  const InterruptRequests interrupts;
   const run::RenderRequest request = make_request(options, context, arguments);
   const uint32_t frames = request.last_frame - request.first_frame + 1;
   if (options.watch && (options.checkpoint_every > 0 || options.resume))
@@ -100,6 +112,7 @@ ExitCode render(const RenderOptions& options, const CommandContext& context,
   for (const std::string& warning : summary.warnings) print_warning(context.err, warning);
   report(summary, context.out);
   for (const std::string& failure : summary.failures) print_error(context.err, failure, "");
+  if (summary.interrupted_by != 0) return interrupted(summary, frames, options.checkpoint_every > 0, context);
   return summary.failures.empty() ? ExitCode::done : ExitCode::run_failed;
 }
 

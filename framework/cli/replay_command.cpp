@@ -3,6 +3,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "framework/base/interrupt.hpp"
 #include "framework/base/text.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/graph_options.hpp"
@@ -95,6 +96,7 @@ void print(const run::ReplaySummary& summary, uint32_t repeat, std::ostream& out
 
 ExitCode replay(const ReplayOptions& options, const CommandContext& context,
                 const std::vector<std::string>& arguments) {
+  const InterruptRequests interrupts;
   Diagnostics diagnostics;
   run::ReplaySummary summary;
   const bool done = run::replay(make_request(options, context, arguments), context.registry, diagnostics, summary);

@@ -6,6 +6,7 @@
 
 #include "framework/base/atomic_file.hpp"
 #include "framework/base/file.hpp"
+#include "framework/base/interrupt.hpp"
 #include "framework/base/progress.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/messages.hpp"
@@ -89,6 +90,7 @@ ExitCode measure(const StabilityOptions& options, const CommandContext& context)
     print_list(chosen, context.out);
     return ExitCode::done;
   }
+  const InterruptRequests interrupts;
   gpu::Device device({options.device, options.validate});
   stability::Lab lab(device, context.registry, run::default_shader_folders());
   const bool print = !options.json && !options.markdown;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "framework/base/file.hpp"
+#include "framework/base/interrupt.hpp"
 #include "framework/base/progress.hpp"
 #include "framework/base/text.hpp"
 #include "framework/cli/commands.hpp"
@@ -95,6 +96,7 @@ ExitCode run(const StudyOptions& options, const CommandContext& context) {
   const auto plan = study::plan_study(*spec, {context.registry, device, context.plugins}, diagnostics);
   print_diagnostics(context.err, diagnostics);
   if (!plan) return exit_code_of(diagnostics);
+  const InterruptRequests interrupts;
   const study::StudyFolder folder(options.out.empty() ? std::filesystem::path("out") / spec->name : options.out);
   if (options.fresh && !options.dry_run) folder.clear();
   if (options.dry_run) {

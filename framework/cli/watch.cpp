@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "framework/base/file_watch.hpp"
+#include "framework/base/interrupt.hpp"
 #include "framework/base/text.hpp"
 #include "framework/cli/messages.hpp"
 
@@ -67,6 +68,7 @@ class Watch {
         report_(summary);
         context_.out.flush();
         for (const std::string& failure : summary.failures) print_error(context_.err, failure, "");
+        stop_if_interrupted();
       }
       say_that_it_waits(rendered);
     } catch (const Outdated& outdated) {
@@ -111,6 +113,7 @@ class Watch {
 
   Paths wait_for_change() {
     while (true) {
+      stop_if_interrupted();
       std::this_thread::sleep_for(kLookEvery);
       if (Paths changed = files_.look(); !changed.empty()) return changed;
     }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "framework/base/interrupt.hpp"
 #include "framework/reference/first_hits.hpp"
 #include "framework/reference/parallel.hpp"
 #include "framework/reference/path_tracer.hpp"
@@ -94,6 +95,7 @@ void trace_image(const G& geometry, const Lights& lights, const ImageSettings& s
     std::optional<FirstHit> hit;
     std::optional<PathVertex> vertex;
     for (uint32_t path = 0; path < settings.paths; ++path) {
+      stop_if_interrupted();
       const PathRandom random(x, y, settings.frame, settings.seed, path);
       if (!hit || !shared_first_hit) {
         hit = first_hit(x, y, random);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "framework/base/error.hpp"
+#include "framework/base/interrupt.hpp"
 #include "framework/gpu/transfer.hpp"
 #include "framework/run/barriers.hpp"
 #include "framework/run/device_needs.hpp"
@@ -70,11 +71,13 @@ Executor::~Executor() {
 }
 
 FrameResult Executor::run_frame(uint32_t frame, const FrameWants& wants) {
+  stop_if_interrupted();
   start_frame(frame, wants);
   return fetch(finish_frame());
 }
 
 FrameResult Executor::repeat_frame(const FrameWants& wants) {
+  stop_if_interrupted();
   if (!started_) throw std::logic_error("no frame has run yet that could be repeated");
   --frame_count_;
   start(recent_frames_.back(), wants);

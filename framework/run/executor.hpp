@@ -64,7 +64,8 @@ class Executor {
   ~Executor();
 
   /// Runs frame number `frame` after the frames run so far, which are its history, and waits for it. What is not wanted
-  /// is not copied, which changes no bit of this or any other frame.
+  /// is not copied, which changes no bit of this or any other frame. Throws Interrupted before it where a stop was
+  /// requested.
   [[nodiscard]] FrameResult run_frame(uint32_t frame, const FrameWants& wants = {});
 
   /// The same in steps, so that the host can do something else while the device works, with one frame at a time under

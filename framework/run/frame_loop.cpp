@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "framework/base/background_jobs.hpp"
+#include "framework/base/interrupt.hpp"
 #include "framework/run/checkpoint.hpp"
 
 namespace lightloom::run {
@@ -25,8 +26,9 @@ class FrameLoop {
     if (progress_.frames() < options_.total) start();
     while (progress_.frames() < options_.total) {
       FinishedFrame frame = finish();
-      const bool go_on = !options_.go_on_after || options_.go_on_after(frame.result);
-      write(std::move(frame));
+      const bool interrupted = interrupt_signal() != 0;
+      const bool go_on = (!options_.go_on_after || options_.go_on_after(frame.result)) && !interrupted;
+      write(std::move(frame), interrupted);
       if (options_.on_frame) options_.on_frame(progress_.frames(), options_.total);
       if (!go_on) break;
       // Before the frame is started, not after, as each frame under way has read-back buffers of its own.
@@ -53,8 +55,8 @@ class FrameLoop {
     return frame;
   }
 
-  void write(FinishedFrame frame) {
-    const std::shared_ptr<Checkpoint> checkpoint = save();
+  void write(FinishedFrame frame, bool last) {
+    const std::shared_ptr<Checkpoint> checkpoint = save(last);
     if (!checkpoint && !frame.wants.outputs && !frame.wants.captures) return;
     writing_.add([this, checkpoint, frame = std::move(frame)] {
       if (!std::exchange(written_, true) && options_.before_first) options_.before_first();
@@ -69,10 +71,10 @@ class FrameLoop {
   }
 
   /// The checkpoint that is due now, but for the state of the folder; empty if none is.
-  [[nodiscard]] std::shared_ptr<Checkpoint> save() const {
+  [[nodiscard]] std::shared_ptr<Checkpoint> save(bool last) const {
     const uint32_t every = options_.checkpoint_every;
     const uint32_t done = progress_.frames();
-    if (every == 0 || (done % every != 0 && done != options_.total)) return nullptr;
+    if (every == 0 || (!last && done % every != 0 && done != options_.total)) return nullptr;
     return std::make_shared<Checkpoint>(
         Checkpoint{.identity = options_.identity, .folder = {}, .progress = progress_, .state = executor_.save()});
   }

@@ -34,7 +34,8 @@ struct FrameLoopOptions {
 /// Renders the frames that `progress` lacks, or those up to the one after which it is not to go on, and writes their
 /// files: while the device works on a frame, those of the frame before are fetched and written on a thread of their
 /// own. The device waits where the disk is slower, so memory does not depend on the number of frames. A checkpoint is
-/// written behind the files of all frames it counts. Throws what rendering or writing throws, once the files of the
+/// written behind the files of all frames it counts; where checkpoints are wanted, also for the frame after which a stop
+/// was requested (base/interrupt.hpp), the last one then. Throws what rendering or writing throws, once the files of the
 /// frames rendered before are whole.
 void render_frames(Executor& executor, RunFolder& folder, RunProgress& progress, const FrameLoopOptions& options);
 

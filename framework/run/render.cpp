@@ -7,6 +7,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
 #include "framework/base/hash.hpp"
+#include "framework/base/interrupt.hpp"
 #include "framework/graph/plan_json.hpp"
 #include "framework/run/checkpoint.hpp"
 #include "framework/run/compile_graph.hpp"
@@ -274,6 +275,7 @@ bool Renderer::render(const RenderRequest& request, const RenderEvents& events, 
           .total = request.last_frame - request.first_frame + 1,
           .identity = {}};
   run.identity = identity_of(run, plan);
+  if (!lock_) lock_.emplace(request.out, "render");
   const std::optional<Checkpoint> checkpoint = find_checkpoint(run);
   const ExecutorOptions options = executor_options(run, scene_->memo, library_);
   RunChecks checks(request.checks, *device_, plan, scene, options);
@@ -288,12 +290,20 @@ bool Renderer::render(const RenderRequest& request, const RenderEvents& events, 
   summary.frames_resumed = progress.frames();
   try {
     render_frames(executor, folder, progress, loop_options(run, executor, checks, progress, folder, events));
+    summary.interrupted_by = progress.frames() < run.total ? interrupt_signal() : 0;
+  } catch (const Interrupted& interrupted) {
+    // In the middle of a frame; those before it are whole.
+    if (progress.frames() == summary.frames_resumed) throw;
+    summary.interrupted_by = interrupted.signal();
   } catch (...) {
     broken_off_ = folder.leftovers();
     throw;
   }
   summarise(run, executor, checks, folder, progress, summary);
-  folder.finish(run_record(run, executor, checks, progress, summary.warnings));
+  Json record = run_record(run, executor, checks, progress, summary.warnings);
+  if (summary.interrupted_by != 0)
+    record["interrupted"] = {{"by", signal_name(summary.interrupted_by)}, {"frames_asked_for", run.total}};
+  folder.finish(std::move(record));
   broken_off_.clear();
   library_->drop_unused();
   return true;

@@ -8,6 +8,7 @@
 
 #include "framework/base/diagnostics.hpp"
 #include "framework/base/file_watch.hpp"
+#include "framework/base/folder_lock.hpp"
 #include "framework/gpu/device.hpp"
 #include "framework/graph/link.hpp"
 #include "framework/graph/pass_type.hpp"
@@ -59,6 +60,7 @@ struct RenderSummary {
   uint32_t frames = 0;                        ///< that are there: fewer than asked for where a check ended the render
   uint32_t frames_resumed = 0;                ///< of an interrupted run that were there already
   double milliseconds_per_frame = 0;          ///< median wall time
+  int interrupted_by = 0;                     ///< the signal that ended it early; 0: none
 };
 
 struct RenderEvents {
@@ -95,10 +97,13 @@ class Renderer {
   std::unique_ptr<LoadedScene> scene_;
   std::unique_ptr<gpu::Device> device_;
   std::shared_ptr<ShaderLibrary> library_;
+  std::optional<FolderLock> lock_;                 ///< on the run folder, from the first render on
   std::vector<std::filesystem::path> broken_off_;  ///< files of a render that ended by an exception
 };
 
-/// Renders the frames one after another and writes the run folder (design, section 5). Problems of the graph file or of
+/// Renders the frames one after another and writes the run folder (design, section 5), which nobody else may write into
+/// meanwhile (FolderLock). A request to stop (base/interrupt.hpp) ends it after the frame under way; the folder is then
+/// that of a run with fewer frames, and its run.json says so. Throws Interrupted where no frame was done. Problems of the graph file or of
 /// the options go to `diagnostics`, and nothing is written; everything else is thrown as Error.
 /// Returns false when `diagnostics` has errors.
 bool render(const RenderRequest& request, const PassRegistry& registry, const FrameCallback& on_frame,

@@ -6,6 +6,7 @@
 
 #include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
+#include "framework/base/folder_lock.hpp"
 #include "framework/base/hash.hpp"
 #include "framework/base/text.hpp"
 #include "framework/image/dumped_image.hpp"
@@ -188,6 +189,7 @@ FrameResult run_passes(Executor& executor, const Replay& replay, std::vector<std
 
 void write_outputs(const Replay& replay, const Executor& executor, const FrameResult& result, ReplaySummary& summary,
                    const std::vector<std::vector<PassTime>>& times) {
+  const FolderLock lock(out_folder(replay.request), "replay");
   RunFolder folder(out_folder(replay.request), replay.run.dump_format == "npy" ? DumpFormat::npy : DumpFormat::exr);
   const Plan& plan = executor.plan();
   folder.write_frame(plan.graph, result, frame_record(result, replay.run.seed, replay.scene.bounds));

@@ -115,6 +115,7 @@ RunFolder::RunFolder(fs::path folder, DumpFormat dump_format, const nlohmann::or
       moving_(state.at("moving")),
       dumped_frames_(state.at("dumped_frames")) {
   for (const nlohmann::ordered_json& file : state.at("files")) files_.emplace_back(file.get<std::string>());
+  replaces_run_ = fs::exists(folder_ / "run.json");  // of the interrupted run
   remove_half_written();
 }
 

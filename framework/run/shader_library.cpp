@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "framework/base/interrupt.hpp"
+
 namespace lightloom::run {
 
 const gpu::ShaderProgram& ShaderLibrary::program(const std::vector<std::string>& files) {
@@ -11,6 +13,7 @@ const gpu::ShaderProgram& ShaderLibrary::program(const std::vector<std::string>&
     found->second.used = true;
     return found->second.program;
   }
+  stop_if_interrupted();
   std::vector<gpu::SpirvModule> modules;
   try {
     modules = compiler_.compile_files(files);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/base/interrupt.hpp"
 #include "framework/scene/accessor.hpp"
 #include "framework/scene/fail.hpp"
 #include "framework/scene/gltf_materials.hpp"
@@ -36,6 +37,7 @@ void load_meshes(GltfAsset& asset, const AccessorReader& reader) {
     std::vector<std::shared_ptr<const Primitive>>& primitives = asset.meshes.emplace_back();
     const std::vector<tinygltf::Primitive>& sources = asset.file.model.meshes[m].primitives;
     for (size_t p = 0; p < sources.size(); ++p) {
+      stop_if_interrupted();
       const std::string path = "meshes[" + std::to_string(m) + "].primitives[" + std::to_string(p) + "]";
       primitives.push_back(std::make_shared<Primitive>(load_primitive(
           reader, asset.file, sources[p], tangent_texcoord(asset, sources[p].material), path, asset.warnings)));

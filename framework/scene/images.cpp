@@ -9,6 +9,7 @@
 #include <exception>
 #include <thread>
 
+#include "framework/base/interrupt.hpp"
 #include "framework/scene/fail.hpp"
 
 namespace lightloom::scene {
@@ -147,6 +148,7 @@ Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, c
 std::vector<Image> load_images(const GltfFile& file, const std::vector<int>& indices) {
   std::vector<Image> images(indices.size());
   run_parallel(indices.size(), [&](size_t i) {
+    stop_if_interrupted();
     const EncodedImage& encoded = file.images[static_cast<size_t>(indices[i])];
     images[i] = decode_image(read_encoded_image(file, encoded), file.name, encoded.name);
   });

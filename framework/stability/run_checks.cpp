@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "framework/base/error.hpp"
+#include "framework/base/interrupt.hpp"
 #include "framework/base/text.hpp"
 
 namespace lightloom::stability {
@@ -19,8 +20,11 @@ Outcome run_check(const Check& check, Lab& lab) {
   const auto begin = std::chrono::steady_clock::now();
   lab.device().clear_validation_messages();
   try {
+    stop_if_interrupted();
     outcome.figures = check.measure(lab);
     if (outcome.figures.empty()) outcome.failure = "measured nothing";
+  } catch (const Interrupted&) {
+    throw;
   } catch (const std::exception& error) {
     outcome.failure = error.what();
   }

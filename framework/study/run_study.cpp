@@ -12,6 +12,7 @@
 
 #include "framework/base/atomic_file.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/interrupt.hpp"
 #include "framework/image/png.hpp"
 #include "framework/study/judge.hpp"
 #include "framework/study/render_reference.hpp"
@@ -86,7 +87,11 @@ class StudyRunner {
     const auto worker = [&] {
       OwnDevice device(device_);
       for (size_t i = next++; i < count && !failure_seen(); i = next++)
-        if (!finished[i]) guarded([&] { work(i, device); });
+        if (!finished[i])
+          guarded([&] {
+            stop_if_interrupted();
+            work(i, device);
+          });
     };
     const size_t missing = static_cast<size_t>(std::count(finished.begin(), finished.end(), false));
     const size_t threads = std::min<size_t>(plan_.spec.jobs, missing);
@@ -202,6 +207,7 @@ class StudyRunner {
     tell();
   }
   void tick() {
+    stop_if_interrupted();
     const std::scoped_lock lock(mutex_);
     tell();
   }

@@ -1,9 +1,5 @@
 #include "framework/study/study_folder.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -102,27 +98,9 @@ CellRecord cell_of(const Json& json) {
 
 }  // namespace
 
-StudyFolder::StudyFolder(fs::path folder) : folder_(std::move(folder)) {
-  make_folder(folder_);
-  lock();
+StudyFolder::StudyFolder(fs::path folder) : folder_(std::move(folder)), lock_(folder_, "study") {
   for (const char* part : {"cells", "references"}) make_folder(folder_ / part);
   remove_leftovers();
-}
-
-StudyFolder::~StudyFolder() {
-  if (lock_ >= 0) ::close(lock_);
-}
-
-/// The lock goes with the process, however that ends.
-void StudyFolder::lock() {
-  const fs::path file = folder_ / ".lock";
-  lock_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (lock_ < 0)
-    throw Error(ExitCode::run_failed, "cannot write in '" + folder_.string() + "': " + std::strerror(errno));
-  if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
-  ::close(std::exchange(lock_, -1));
-  throw Error(ExitCode::run_failed, "another study is running in '" + folder_.string() + "'",
-              "wait for it, or choose another folder with --out");
 }
 
 void StudyFolder::remove_leftovers() const {

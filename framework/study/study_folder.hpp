@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/base/folder_lock.hpp"
 #include "framework/image/host_image.hpp"
 #include "framework/study/render_cell.hpp"
 #include "framework/study/tonemap.hpp"
@@ -39,7 +40,6 @@ class StudyFolder {
  public:
   /// Makes the folder. Throws Error(run_failed) where that cannot be, or where another program has it.
   explicit StudyFolder(std::filesystem::path folder);
-  ~StudyFolder();
   StudyFolder(const StudyFolder&) = delete;
   StudyFolder& operator=(const StudyFolder&) = delete;
 
@@ -66,11 +66,10 @@ class StudyFolder {
   [[nodiscard]] image::HostImage load_reference_radiance(const std::string& key, uint32_t frame) const;
 
  private:
-  void lock();
   void remove_leftovers() const;
 
   std::filesystem::path folder_;
-  int lock_ = -1;
+  FolderLock lock_;
 };
 
 /// An EXR file of colours as rgba32_sfloat. Throws Error(invalid_input).
