@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cstring>
+#include <optional>
 
 #include "framework/base/error.hpp"
 #include "framework/gpu/result.hpp"
@@ -179,10 +180,10 @@ DeviceSummary describe_device(VkPhysicalDevice device) {
 
 bool has_device_extension(VkPhysicalDevice device, const char* name) {
   uint32_t count = 0;
-  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "vkEnumerateDeviceExtensionProperties");
+  constexpr const char* kAsked = "asking a device for its extensions";
+  require_driver(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), kAsked);
   std::vector<VkExtensionProperties> extensions(count);
-  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()),
-        "vkEnumerateDeviceExtensionProperties");
+  require_driver(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()), kAsked);
   return std::any_of(extensions.begin(), extensions.end(),
                      [&](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
 }
@@ -201,13 +202,16 @@ size_t choose_device(std::span<const DeviceSummary> devices, const std::string& 
 }
 
 std::vector<DeviceSummary> list_devices() {
-  std::vector<DeviceSummary> devices;
+  std::optional<Instance> instance;
   try {
-    const Instance instance(false);
-    for (VkPhysicalDevice device : instance.physical_devices()) devices.push_back(describe_device(device));
+    instance.emplace(false);
   } catch (const Error& error) {
+    // Without a driver there is no device to list.
     if (error.code() != ExitCode::no_device) throw;
+    return {};
   }
+  std::vector<DeviceSummary> devices;
+  for (VkPhysicalDevice device : instance->physical_devices()) devices.push_back(describe_device(device));
   return devices;
 }
 

@@ -45,9 +45,9 @@ bool has_extension(const char* layer, const char* name) {
 
 void require_validation_layer() {
   uint32_t count = 0;
-  check(vkEnumerateInstanceLayerProperties(&count, nullptr), "vkEnumerateInstanceLayerProperties");
+  require_driver(vkEnumerateInstanceLayerProperties(&count, nullptr), "asking for the layers");
   std::vector<VkLayerProperties> layers(count);
-  check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "vkEnumerateInstanceLayerProperties");
+  require_driver(vkEnumerateInstanceLayerProperties(&count, layers.data()), "asking for the layers");
   const bool found = std::any_of(layers.begin(), layers.end(),
                                  [](const auto& layer) { return std::strcmp(layer.layerName, kValidationLayer) == 0; });
   if (found) return;
@@ -141,9 +141,11 @@ Instance::~Instance() {
 std::vector<VkPhysicalDevice> Instance::physical_devices() const {
   uint32_t count = 0;
   // VK_ERROR_INITIALIZATION_FAILED: a loader with drivers none of which finds a device.
-  if (vkEnumeratePhysicalDevices(instance_, &count, nullptr) < 0) return {};
+  const VkResult counted = vkEnumeratePhysicalDevices(instance_, &count, nullptr);
+  if (counted == VK_ERROR_INITIALIZATION_FAILED) return {};
+  require_driver(counted, "asking the drivers for their devices");
   std::vector<VkPhysicalDevice> devices(count);
-  check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "vkEnumeratePhysicalDevices");
+  require_driver(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "asking the drivers for their devices");
   devices.resize(count);
   return devices;
 }

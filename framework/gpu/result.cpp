@@ -46,11 +46,19 @@ std::string result_name(VkResult result) {
 
 void check(VkResult result, std::string_view what) {
   if (result >= 0) return;
+  const std::string sentence = std::string(what) + " failed with " + result_name(result);
+  if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(sentence);
   std::string hint;
-  if (result == VK_ERROR_DEVICE_LOST) {
-    hint = "the device or its driver gave up; run again with --validate, or on another device with --device";
-  }
-  throw Error(ExitCode::run_failed, std::string(what) + " failed with " + result_name(result), hint);
+  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
+    hint = "the device or the machine is out of memory: a smaller --size or --set resolution=N needs less";
+  throw Error(ExitCode::run_failed, sentence, hint);
+}
+
+void require_driver(VkResult result, std::string_view what) {
+  if (result >= 0) return;
+  throw Error(ExitCode::no_device, std::string(what) + " failed with " + result_name(result),
+              "the driver does not work: run `lightloom devices`, choose another with --device, or install "
+              "mesa-vulkan-drivers, which renders on the CPU");
 }
 
 }  // namespace lightloom::gpu

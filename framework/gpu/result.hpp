@@ -5,13 +5,29 @@
 #include <string>
 #include <string_view>
 
+#include "framework/base/error.hpp"
+
 namespace lightloom::gpu {
 
 /// "VK_ERROR_DEVICE_LOST"; an unknown value gives its number.
 [[nodiscard]] std::string result_name(VkResult result);
 
-/// Throws Error(run_failed) that names the call and the result, unless `result` is a success code.
+/// The device gave up, or does not come to an end: nothing more can be asked of it.
+class DeviceLost : public Error {
+ public:
+  explicit DeviceLost(const std::string& sentence, std::string hint = {})
+      : Error(ExitCode::run_failed, sentence,
+              hint.empty() ? "the device or its driver gave up; run again with --validate, or on another device with "
+                             "--device"
+                           : std::move(hint)) {}
+};
+
+/// Throws Error(run_failed) that names the call and the result, unless `result` is a success code; DeviceLost for
+/// VK_ERROR_DEVICE_LOST.
 /// @param what the call, e.g. "vkCreateImage (temporal.radiance)"
 void check(VkResult result, std::string_view what);
+
+/// The same for what is asked of drivers before there is a device: Error(no_device).
+void require_driver(VkResult result, std::string_view what);
 
 }  // namespace lightloom::gpu
