@@ -2,10 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <glm/gtc/constants.hpp>
+#include <set>
 
+#include "framework/base/file.hpp"
+#include "passes/registry.hpp"
 #include "tests/passes/light_support.hpp"
 #include "tests/support/device_fixture.hpp"
+#include "tests/support/source_dir.hpp"
 
 namespace lightloom::test {
 namespace {
@@ -72,6 +77,52 @@ TEST_F(Storage, WhatIsTooBrightForAHalfIsStoredAsItsLargest) {
       EXPECT_EQ(only_stored.at(pass).at(kSize / 2, kSize / 2, 0, channel), kHalfMax) << pass;
     }
   }
+}
+
+TEST_F(Storage, AnInfinityIsStoredAsTheLargestHalf) {
+  const std::string passes = passes_over("constant", 3e38);  // twice that in the blue channel
+  const std::string output = R"("light": "modulate.radiance")";
+  EXPECT_TRUE(std::isinf(last_frame(passes, output, wall(1, 3), {}).at("light").at(kSize / 2, kSize / 2, 0, 2)));
+  const Images narrow = last_frame(passes, output, wall(1, 3), {{"modulate.radiance", "rgba16_sfloat"}});
+  EXPECT_EQ(narrow.at("light").at(kSize / 2, kSize / 2, 0, 2), kHalfMax);
+}
+
+/// Shader names of outputs of shipped passes whose formats hold numbers that another may not.
+std::set<std::string> bounded_outputs() {
+  PassRegistry types;
+  passes::register_builtin_passes(types);
+  std::set<std::string> names;
+  for (const std::string& name : types.names())
+    for (const Port& port : types.find(name)->ports)
+      for (const PortPart& part : port.parts)
+        if (port.direction == Direction::out && port.exact_format.empty() &&
+            format_info(part.format).encoding == Encoding::sfloat)
+          names.insert("out_" + port.name + (part.name.empty() ? "" : "_" + part.name));
+  return names;
+}
+
+TEST_F(Storage, EveryShaderBoundsWhatItStores) {
+  // Some devices, as the one that tests run on, clamp finite numbers by themselves, so the text is what can be checked.
+  const std::set<std::string> outputs = bounded_outputs();
+  std::set<std::string> stored;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() / "shaders")) {
+    if (!entry.is_regular_file()) continue;
+    const std::string text = read_text_file(entry.path());
+    for (const std::string& name : outputs)
+      for (const std::string& start : {"imageStore(" + name + ",", "  " + name + " = storable("})
+        for (size_t at = text.find(start); at != std::string::npos; at = text.find(start, at + 1)) {
+          const std::string statement = text.substr(at, text.find(';', at) - at);
+          if (statement.find("vec4(0.0)") != std::string::npos) continue;
+          // Images of another pass's shader may have the name of a port with whole numbers or fractions.
+          if (text.find("uniform writeonly image3D " + name) != std::string::npos) continue;
+          EXPECT_NE(statement.find("storable("), std::string::npos) << entry.path() << ": " << statement;
+          EXPECT_NE(statement.find(name + "_largest"), std::string::npos) << entry.path() << ": " << statement;
+          stored.insert(name);
+        }
+  }
+  // Those of reference_path_trace are written on the host.
+  for (const std::string& name : outputs)
+    EXPECT_TRUE(stored.contains(name) || name == "out_outgoing") << name << " is stored by no shader";
 }
 
 TEST_F(Storage, AGBufferOfHalvesHoldsNoInfinity) {
@@ -207,6 +258,26 @@ TEST_F(Storage, VoxelsOfAnyWidthHoldTheSameVoxels) {
         }
       }
   EXPECT_GT(occupied, 300u);
+}
+
+TEST_F(Storage, ReadersOfVoxelsFollowTheirWidth) {
+  const std::string passes = R"("voxelize": { "type": "voxelize", "params": { "resolution": 16 } },
+    "distance": { "type": "distance_transform", "in": { "voxels": "voxelize.voxels" } },
+    "view": { "type": "view_voxels", "in": { "voxels": "voxelize.voxels", "distance": "distance.distance" },
+              "params": { "show": "tangent", "shade_faces": false } })";
+  const std::string output = R"("view": "view.image")";
+  const image::HostImage narrow = last_frame(passes, output, lit_floor(1), {}).at("view");
+  const image::HostImage wide =
+      last_frame(passes, output, lit_floor(1), {{"voxelize.voxels", "rgba16_unorm"}}).at("view");
+  size_t seen = 0;
+  for (uint32_t y = 0; y < kSize; ++y)
+    for (uint32_t x = 0; x < kSize; ++x)
+      for (uint32_t channel = 0; channel < 3; ++channel) {
+        // Ten degrees, as coarse as the paper's tangents may be.
+        EXPECT_NEAR(wide.at(x, y, 0, channel), narrow.at(x, y, 0, channel), 0.1) << x << " " << y;
+        seen += std::abs(narrow.at(x, y, 0, channel) - 0.35) > 0.1 ? 1 : 0;
+      }
+  EXPECT_GT(seen, 200u);
 }
 
 }  // namespace

@@ -164,7 +164,7 @@ TEST_F(StudyProgram, TheStudiesThatComeWithItCanBeRun) {
     EXPECT_THAT(log(), ::testing::HasSubstr("cells of")) << entry.path();
     EXPECT_THAT(log(), ::testing::Not(::testing::HasSubstr("cannot be run"))) << entry.path();
   }
-  EXPECT_EQ(studies, 7U);
+  EXPECT_EQ(studies, 8U);
 }
 
 TEST_F(StudyProgram, WrongUsageIsTold) {
