@@ -36,5 +36,6 @@ void main() {
 
   gl_Position = frame.view_projection[0] * vec4(position, 1.0);
   // The back of a single-sided material: three equal corners leave no pixels.
-  if (back == 1u && materials[t.material].flags.y == 0u) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+  bool unseen = back == 1u && materials[t.material].flags.y == 0u;
+  if (unseen || !has_area(corners)) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }

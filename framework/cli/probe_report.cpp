@@ -109,12 +109,21 @@ void print_pass(std::ostream& out, size_t number, const run::ProbedPass& pass, u
   print_texels(out, "tmp", pass.scratch, explain);
 }
 
+std::string origin_text(const glm::dvec3& origin) {
+  if (origin == glm::dvec3(0)) return {};
+  std::ostringstream text;
+  text << std::setprecision(12) << " from the scene's origin (" << origin.x << ", " << origin.y << ", " << origin.z
+       << ")";
+  return text.str();
+}
+
 void print_frame(std::ostream& out, const run::ProbedFrame& frame, bool explain) {
   out << "\nframe " << frame.frame << ", " << frame.time << " s; histories hold " << frame.history_length
       << (frame.history_length == 1 ? " earlier frame\n" : " earlier frames\n");
   if (frame.point)
-    out << "the pixel sees (" << frame.point->x << ", " << frame.point->y << ", " << frame.point->z << ") m, says "
-        << frame.point_source << "; volumes are shown at the voxel that holds it\n";
+    out << "the pixel sees (" << frame.point->x << ", " << frame.point->y << ", " << frame.point->z << ") m"
+        << origin_text(frame.origin) << ", says " << frame.point_source
+        << "; volumes are shown at the voxel that holds it\n";
   else
     out << frame.point_source << "\n";
   for (size_t i = 0; i < frame.passes.size(); ++i)
@@ -184,6 +193,7 @@ Json frame_json(const run::ProbedFrame& frame) {
           {"time", frame.time},
           {"history_length", frame.history_length},
           {"point", point},
+          {"scene_origin", {frame.origin.x, frame.origin.y, frame.origin.z}},
           {frame.point ? "point_from" : "no_point", frame.point_source},
           {"passes", passes}};
 }

@@ -1,3 +1,4 @@
+#include <iomanip>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -72,6 +73,11 @@ void print_text(const scene::Scene& scene, std::ostream& out) {
       {"bounds", text_of(scene.bounds.min) + " to " + text_of(scene.bounds.max) + " m"},
       {"animation", scene.duration > 0 ? text_of(scene.duration) + " s" : "none"},
   };
+  if (scene.origin != glm::dvec3(0)) {
+    std::ostringstream origin;
+    origin << std::setprecision(12) << scene.origin.x << ' ' << scene.origin.y << ' ' << scene.origin.z;
+    rows.push_back({"origin", origin.str() + " m in the world; bounds and all coordinates in images are from there"});
+  }
   if (scene.sun) {
     rows.push_back(
         {"sun", "direction " + text_of(scene.sun->direction) + ", irradiance " + text_of(scene.sun->irradiance)});

@@ -87,6 +87,7 @@ class Prober {
                       .time = result.conditions.time,
                       .history_length = result.conditions.history_length,
                       .point = point_,
+                      .origin = scene_.origin,
                       .point_source = point_source_,
                       .passes = {}};
     for (const auto* steps : {&plan.once, &plan.steps})

@@ -48,9 +48,11 @@ struct ProbedPass {
 
 struct ProbedFrame {
   uint32_t frame = 0;
-  double time = 0;                 ///< of the scene [s]
-  uint32_t history_length = 0;     ///< earlier frames that the histories held
-  std::optional<glm::vec3> point;  ///< that the pixel sees, in world space [m]: where volumes are looked at
+  double time = 0;              ///< of the scene [s]
+  uint32_t history_length = 0;  ///< earlier frames that the histories held
+  /// That the pixel sees, in world space less `origin` [m]: where volumes are looked at.
+  std::optional<glm::vec3> point;
+  glm::dvec3 origin{0};            ///< of the scene, in the world [m]
   std::string point_source;        ///< the value that says so, or why none does
   std::vector<ProbedPass> passes;  ///< in execution order, those that ran once first
 };

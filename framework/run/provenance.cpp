@@ -101,6 +101,7 @@ Json scene_record(const scene::Scene& scene) {
           {"vertices", scene.vertices.size()},
           {"materials", scene.materials.size()},
           {"images", scene.images.size()},
+          {"origin", vector_json(scene.origin)},
           {"bounds", bounds_json(scene.bounds)},
           {"features", features}};
 }
@@ -115,7 +116,7 @@ Json camera_path_record(const std::optional<scene::CameraPath>& path) {
           {"keyframes", keys}};
 }
 
-Json frame_record(const FrameResult& frame, uint32_t seed, const scene::Bounds& bounds) {
+Json frame_record(const FrameResult& frame, uint32_t seed, const scene::Scene& scene) {
   const glm::mat4 rows = glm::transpose(frame.conditions.view.view_projection);
   return {{"frame", frame.frame},
           {"time", frame.conditions.time},
@@ -123,7 +124,8 @@ Json frame_record(const FrameResult& frame, uint32_t seed, const scene::Bounds& 
           {"history_length", frame.conditions.history_length},
           {"view_projection", {vector_json(rows[0]), vector_json(rows[1]), vector_json(rows[2]), vector_json(rows[3])}},
           {"eye", vector_json(frame.conditions.view.eye)},
-          {"scene_bounds", bounds_json(bounds)}};
+          {"scene_bounds", bounds_json(scene.bounds)},
+          {"scene_origin", vector_json(scene.origin)}};
 }
 
 Json graph_record(const Plan& plan) {

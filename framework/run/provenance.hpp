@@ -20,8 +20,9 @@ namespace lightloom::run {
 /// File, interpolation and keyframes; null without a path.
 [[nodiscard]] nlohmann::ordered_json camera_path_record(const std::optional<scene::CameraPath>& path);
 /// Number, time [s], earlier frames in the histories, seed, bounds of the scene [m]; view_projection as rows, so that
-/// clip = view_projection * (x, y, z, 1) with Vulkan's axes; eye as in shaders/lib/scene.glsl.
-[[nodiscard]] nlohmann::ordered_json frame_record(const FrameResult& frame, uint32_t seed, const scene::Bounds& bounds);
+/// clip = view_projection * (x, y, z, 1) with Vulkan's axes; eye as in shaders/lib/scene.glsl. All these coordinates,
+/// as those in the frame's images, are those of the world less `scene_origin` [m].
+[[nodiscard]] nlohmann::ordered_json frame_record(const FrameResult& frame, uint32_t seed, const scene::Scene& scene);
 /// Name, hash of the plan, sizes, params, outputs, what was culled and bypassed, memory.
 [[nodiscard]] nlohmann::ordered_json graph_record(const Plan& plan);
 /// One entry a heap: its bytes, the least that any sharing needs, and what its values would need apart.

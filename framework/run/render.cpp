@@ -167,7 +167,7 @@ FrameLoopOptions loop_options(const Run& run, const Executor& executor, RunCheck
       .dump_frames = request.dump_frames,
       .checkpoint_every = request.checkpoint_every,
       .identity = run.identity,
-      .describe = [&run](const FrameResult& frame) { return frame_record(frame, run.request.seed, run.scene.bounds); },
+      .describe = [&run](const FrameResult& frame) { return frame_record(frame, run.request.seed, run.scene); },
       .go_on_after =
           [&checks](const FrameResult& frame) {
             checks.add(frame);

@@ -192,7 +192,7 @@ void write_outputs(const Replay& replay, const Executor& executor, const FrameRe
   const FolderLock lock(out_folder(replay.request), "replay");
   RunFolder folder(out_folder(replay.request), replay.run.dump_format == "npy" ? DumpFormat::npy : DumpFormat::exr);
   const Plan& plan = executor.plan();
-  folder.write_frame(plan.graph, result, frame_record(result, replay.run.seed, replay.scene.bounds));
+  folder.write_frame(plan.graph, result, frame_record(result, replay.run.seed, replay.scene));
   folder.finish(replay_record(replay, summary, plan, times));
   summary.folder = folder.path();
 }
@@ -225,7 +225,7 @@ bool replay(const ReplayRequest& request, const PassRegistry& registry, Diagnost
   summary.notes = notes_of(replay);
   summary.changes = changes_of(replay, text, device.info());
   if (summary.changes.empty() &&
-      Json::parse(frame_record(result, run.seed, replay.scene.bounds).dump()) != run.dumps.conditions(replay.frame))
+      Json::parse(frame_record(result, run.seed, replay.scene).dump()) != run.dumps.conditions(replay.frame))
     summary.changes.emplace_back("the frame's conditions: camera or time are not those in its frame.json");
   summary.compared = request.compare || summary.changes.empty();
   compare(replay, part->graph, result, summary);

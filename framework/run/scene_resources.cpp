@@ -249,7 +249,7 @@ FrameConditions SceneResources::prepare(uint32_t frame) {
   bindings_.moved = moving_.moved();
   const uint32_t history_length = std::min(static_cast<uint32_t>(views_.size()), kHistoryLimit - 1);
   scene::Camera camera = pose_.cameras.at(camera_);
-  if (options_.camera_path) camera = scene::camera_on_path(*options_.camera_path, time, camera);
+  if (options_.camera_path) camera = scene::camera_on_path(*options_.camera_path, time, camera, scene_.origin);
   frame_scene_ = {.scene = &scene_,
                   .pose = &pose_,
                   .camera = camera,

@@ -9,6 +9,7 @@
 #include "framework/scene/basis.hpp"
 #include "framework/scene/fail.hpp"
 #include "framework/scene/gltf_materials.hpp"
+#include "framework/scene/origin.hpp"
 
 namespace lightloom::scene {
 namespace {
@@ -30,11 +31,14 @@ class Assembler {
   }
 
   Scene build(const SceneFile& file) {
-    scene_.cameras = file.cameras;
+    for (const CameraSpec& camera : file.cameras) scene_.cameras.push_back(camera.camera);
     scene_.sun = file.sun;
     scene_.environment = file.environment;
     for (size_t i = 0; i < file.instances.size(); ++i) add_instance(file.instances[i], i == 0);
     mark_moving_nodes();
+    scene_.origin = source_->origin = choose_origin(*source_, draws_);
+    for (size_t i = 0; i < file.cameras.size(); ++i)
+      scene_.cameras[i].world_from_camera = look_at_target(file.cameras[i], scene_.origin);
     place_draws();
     name_cameras();
     scene_.source = source_;

@@ -136,7 +136,7 @@ CameraPath read_camera_path(const std::filesystem::path& path) {
   return result;
 }
 
-Camera camera_on_path(const CameraPath& path, double time, Camera camera) {
+Camera camera_on_path(const CameraPath& path, double time, Camera camera, const glm::dvec3& origin) {
   const std::vector<CameraKey>& keys = path.keys;
   size_t i = 0;
   while (i + 2 < keys.size() && time >= keys[i + 1].time) ++i;
@@ -149,11 +149,11 @@ Camera camera_on_path(const CameraPath& path, double time, Camera camera) {
   const glm::dvec3 position = value_at([&](size_t k) { return keys[k].position; });
   if (keys[0].aim.index() == 0) {
     const glm::dvec3 target = value_at([&](size_t k) { return std::get<glm::dvec3>(keys[k].aim); });
-    camera.world_from_camera = glm::mat4(look(position, target, path.up));
+    camera.world_from_camera = glm::mat4(look(position - origin, target - origin, path.up));
   } else {
     const glm::dquat turned =
         glm::slerp(std::get<glm::dquat>(keys[i].aim), std::get<glm::dquat>(keys[next].aim), amount);
-    camera.world_from_camera = glm::mat4(glm::translate(glm::dmat4(1), position) * glm::mat4_cast(turned));
+    camera.world_from_camera = glm::mat4(glm::translate(glm::dmat4(1), position - origin) * glm::mat4_cast(turned));
   }
   if (keys[0].vertical_fov) {
     const double fov = value_at([&](size_t k) { return *keys[k].vertical_fov; });

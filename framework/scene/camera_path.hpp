@@ -43,8 +43,10 @@ struct CameraPath {
 /// members are errors.
 [[nodiscard]] CameraPath read_camera_path(const std::filesystem::path& path);
 
-/// `camera` at `time` [s] of the path: its pose, and its field of view if the path has one.
-[[nodiscard]] Camera camera_on_path(const CameraPath& path, double time, Camera camera);
+/// `camera` at `time` [s] of the path: its pose, in the world less `origin` [m], and its field of view if the path has
+/// one.
+[[nodiscard]] Camera camera_on_path(const CameraPath& path, double time, Camera camera,
+                                    const glm::dvec3& origin = glm::dvec3(0));
 
 [[nodiscard]] std::string to_string(PathInterpolation interpolation);
 

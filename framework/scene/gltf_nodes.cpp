@@ -157,14 +157,16 @@ SourceNode load_node(const GltfFile& file, int index) {
   const tinygltf::Node& source = file.model.nodes[static_cast<size_t>(index)];
   SourceNode node;
   if (!source.matrix.empty()) {
-    glm::mat4 matrix;
-    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = static_cast<float>(source.matrix[static_cast<size_t>(i)]);
-    if (matrix[0].w != 0 || matrix[1].w != 0 || matrix[2].w != 0 || matrix[3].w != 1) {
+    glm::dmat4 matrix;
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = source.matrix[static_cast<size_t>(i)];
+    if (const glm::mat4 rounded(matrix);
+        rounded[0].w != 0 || rounded[1].w != 0 || rounded[2].w != 0 || rounded[3].w != 1) {
       fail(file.name, node_path(index) + ".matrix", "is not an affine transform, expected the bottom row 0 0 0 1");
     }
     node.matrix = matrix;
   }
-  if (!source.translation.empty()) node.translation = vec3_of(source.translation);
+  if (!source.translation.empty())
+    node.translation = {source.translation[0], source.translation[1], source.translation[2]};
   if (!source.scale.empty()) node.scale = vec3_of(source.scale);
   if (!source.rotation.empty()) {
     const glm::dquat q(source.rotation[3], source.rotation[0], source.rotation[1], source.rotation[2]);

@@ -3,6 +3,7 @@
 #include "framework/scene/assemble.hpp"
 #include "framework/scene/fail.hpp"
 #include "framework/scene/finish.hpp"
+#include "framework/scene/origin.hpp"
 
 namespace lightloom::scene {
 namespace {
@@ -57,6 +58,7 @@ Scene load_scene(const std::filesystem::path& file) {
                              "sun; a scene file can give it others");
   }
   if (scene.cameras.empty()) scene.cameras.push_back(framing_camera(scene.bounds));
+  if (std::string warning = far_outlier_warning(scene); !warning.empty()) scene.warnings.push_back(std::move(warning));
   if (!has_light(scene.features)) {
     scene.warnings.push_back(
         "the scene has no light: give it a sun or an environment in a scene file, or everything is black");

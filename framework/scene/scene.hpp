@@ -137,10 +137,13 @@ struct Bounds {
 
 struct SceneSource;  // nodes, skins, morph targets, clips: what posing needs (scene/pose.cpp)
 
-/// A loaded scene. Geometry in world space: triangles [0, static_triangle_count) never move; the vertices of the rest,
-/// [static_vertex_count, vertices.size()), are those at time 0 and are re-posed by `pose`.
+/// A loaded scene. Geometry in world space less `origin`, as are cameras, punctual lights and bounds, here, on the
+/// device and in all that passes write: floats resolve 1 m at a distance of 1e7 m, so a scene that lies far off for its
+/// size is loaded as if it did not (framework/scene/origin.hpp). Triangles [0, static_triangle_count) never move; the
+/// vertices of the rest, [static_vertex_count, vertices.size()), are those at time 0 and are re-posed by `pose`.
 struct Scene {
   std::filesystem::path file;
+  glm::dvec3 origin{0};  ///< [m], where in the world the coordinates of the scene have their zero
   std::vector<Vertex> vertices;
   std::vector<Triangle> triangles;
   uint32_t static_vertex_count = 0;

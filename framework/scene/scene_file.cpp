@@ -9,13 +9,19 @@
 namespace lightloom::scene {
 namespace {
 
+glm::dvec3 point(const JsonMembers& members, const JsonNode& node, const std::string& key) {
+  const std::vector<double> xyz = members.numbers(node, key, 3, -JsonMembers::kLargest);
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
 InstanceSpec read_instance(const JsonNode& node, const std::filesystem::path& folder, const std::string& path) {
   JsonMembers members(node, path);
   InstanceSpec instance;
   const JsonNode& gltf = members.require("gltf");
   instance.gltf = folder / members.typed(gltf, "gltf", JsonKind::string).string;
   instance.where = place_of(gltf) + ": " + path;
-  instance.translation = members.vec3_or("translation", glm::vec3(0), -JsonMembers::kLargest);
+  if (const JsonNode* translation = members.find("translation"))
+    instance.translation = point(members, *translation, "translation");
   instance.rotation_y = glm::radians(static_cast<float>(members.number_or("rotation_y_degrees", kInstanceRotation)));
   instance.scale = static_cast<float>(members.number_or("scale", kInstanceScale));
   instance.time_offset = members.number_or("time_offset_seconds", kTimeOffset);
@@ -31,22 +37,22 @@ InstanceSpec read_instance(const JsonNode& node, const std::filesystem::path& fo
   return instance;
 }
 
-Camera read_camera(const JsonNode& node, const std::string& name, const std::string& path) {
+CameraSpec read_camera(const JsonNode& node, const std::string& name, const std::string& path) {
   JsonMembers members(node, path);
-  Camera camera;
-  camera.name = name;
-  const glm::vec3 eye = members.vec3(members.require("eye"), "eye", -JsonMembers::kLargest);
-  const glm::vec3 target = members.vec3(members.require("target"), "target", -JsonMembers::kLargest);
-  const glm::vec3 up = members.vec3_or("up", {0, 1, 0}, -JsonMembers::kLargest);
-  camera.vertical_fov = glm::radians(static_cast<float>(members.number_or("vertical_fov_degrees", kFieldOfView)));
+  CameraSpec camera;
+  camera.camera.name = name;
+  camera.eye = point(members, members.require("eye"), "eye");
+  camera.target = point(members, members.require("target"), "target");
+  camera.up = members.vec3_or("up", {0, 1, 0}, -JsonMembers::kLargest);
+  camera.camera.vertical_fov =
+      glm::radians(static_cast<float>(members.number_or("vertical_fov_degrees", kFieldOfView)));
   members.finish(kCameraKeys);
-  const glm::vec3 forward = target - eye;
+  const glm::vec3 forward(camera.target - camera.eye);
   if (!(glm::length(forward) > 0))
     refuse_json(node.where, path + " has the same eye and target, expected different points");
-  if (!(glm::length(glm::cross(glm::normalize(forward), up)) > 1e-6f * glm::length(up))) {
+  if (!(glm::length(glm::cross(glm::normalize(forward), camera.up)) > 1e-6f * glm::length(camera.up))) {
     refuse_json(node.where, path + " has an up that is zero or along the view, expected another direction");
   }
-  camera.world_from_camera = glm::inverse(glm::lookAt(eye, target, up));
   return camera;
 }
 
@@ -89,6 +95,16 @@ Environment read_environment(const JsonNode& node, const std::filesystem::path& 
 }
 
 }  // namespace
+
+glm::mat4 look_at_target(const CameraSpec& camera, const glm::dvec3& origin) {
+  const glm::vec3 eye(camera.eye - origin), target(camera.target - origin), forward(camera.target - camera.eye);
+  const bool resolved = glm::distance(target - eye, forward) <= 1e-3f * glm::length(forward);
+  if (resolved) return glm::inverse(glm::lookAt(eye, target, camera.up));
+  // A camera so far off that floats do not tell eye and target apart still looks where it is told to.
+  glm::mat4 matrix = glm::inverse(glm::lookAt(glm::vec3(0), forward, camera.up));
+  matrix[3] = glm::vec4(eye, 1);
+  return matrix;
+}
 
 SceneFile read_scene_file(const std::filesystem::path& path) {
   const JsonNode root = parse_json_file(path);

@@ -17,12 +17,12 @@ namespace lightloom::scene {
 /// A node at rest. Nodes of all files of a scene lie in one list, parents before children.
 struct SourceNode {
   int32_t parent = -1;
-  glm::vec3 translation{0};
+  glm::dvec3 translation{0};  ///< in double, as scenes may lie far off
   glm::quat rotation{1, 0, 0, 0};
   glm::vec3 scale{1};
-  std::optional<glm::mat4> matrix;  ///< instead of translation, rotation and scale
-  std::vector<float> weights;       ///< of morph targets
-  bool moves = false;               ///< it or an ancestor is animated
+  std::optional<glm::dmat4> matrix;  ///< instead of translation, rotation and scale
+  std::vector<float> weights;        ///< of morph targets
+  bool moves = false;                ///< it or an ancestor is animated
 };
 
 enum class TrackPath : uint8_t { translation, rotation, scale, weights };
@@ -64,6 +64,7 @@ struct Draw {
 
 /// What posing needs.
 struct SceneSource {
+  glm::dvec3 origin{0};  ///< Scene::origin
   std::vector<SourceNode> nodes;
   std::vector<Clip> clips;
   std::vector<SourceSkin> skins;
@@ -72,7 +73,9 @@ struct SceneSource {
 
 /// Transforms of all nodes at one moment.
 struct NodeState {
-  std::vector<glm::mat4> world;             ///< world from node
+  /// World less the scene's origin, from node. Composed in floats, so exact as such, unless `far_off`.
+  std::vector<glm::dmat4> world;
+  bool far_off = false;                     ///< the scene's origin is not the world's
   std::vector<std::vector<float>> weights;  ///< of morph targets, by node
 };
 
@@ -88,7 +91,11 @@ void apply_track_value(const Track& track, const std::vector<float>& value, Sour
 /// Nodes at `time` [s].
 [[nodiscard]] NodeState evaluate_nodes(const SceneSource& source, double time);
 
-/// World-space vertices of a draw: morphed, then skinned or moved with its node. `out` has as many as the primitive.
+/// World from node at time 0, composed in double; the scene's origin is not subtracted.
+[[nodiscard]] std::vector<glm::dmat4> world_from_nodes(const SceneSource& source);
+
+/// Vertices of a draw, in world space less the scene's origin: morphed, then skinned or moved with its node. `out` has
+/// as many as the primitive.
 void pose_vertices(const SceneSource& source, const Draw& draw, const NodeState& state, std::span<Vertex> out);
 
 /// Whether the transform of a draw turns it inside out.

@@ -25,6 +25,11 @@ struct Check {
 [[nodiscard]] std::vector<Check> all_checks();
 
 // Each adds the checks of one group.
+void add_geometry_checks(std::vector<Check>& checks);
+void add_grid_checks(std::vector<Check>& checks);
+void add_metamorphic_checks(std::vector<Check>& checks);
 void add_random_checks(std::vector<Check>& checks);
+void add_shape_checks(std::vector<Check>& checks);
+void add_view_checks(std::vector<Check>& checks);
 
 }  // namespace lightloom::stability

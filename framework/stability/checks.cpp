@@ -4,6 +4,11 @@ namespace lightloom::stability {
 
 std::vector<Check> all_checks() {
   std::vector<Check> checks;
+  add_geometry_checks(checks);
+  add_shape_checks(checks);
+  add_grid_checks(checks);
+  add_view_checks(checks);
+  add_metamorphic_checks(checks);
   add_random_checks(checks);
   return checks;
 }

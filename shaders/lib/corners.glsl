@@ -12,6 +12,15 @@ struct Corners {
 // Twice the area, along the normal of the front face (counter-clockwise corners).
 vec3 area_normal(Corners t) { return cross(t.b - t.a, t.c - t.a); }
 
+// Is it more than a line or a point? The bound of scene::is_degenerate; false also for corners that are not numbers.
+// Clipping and rounding would make a sliver of a line, with pixels of its own.
+bool has_area(Corners t) {
+  vec3 ab = t.b - t.a;
+  vec3 ac = t.c - t.a;
+  vec3 area = abs(cross(ab, ac));
+  return max(area.x, max(area.y, area.z)) > 1e-9 * max(dot(ab, ab), dot(ac, ac));
+}
+
 // Barycentric coordinates of the triangle's point nearest to `p`. Ericson 2005, "Real-Time Collision Detection", 5.1.5:
 // the Voronoi region of p (corner, edge or face) is found from dot products alone. A triangle without area gives a
 // point of it, never NaN.
