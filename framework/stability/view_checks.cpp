@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,10 +11,12 @@ namespace {
 
 constexpr float kFov = 0.9f;
 
-/// A wall that fills every view, seen straight on from 2 m away; white, lit by a sky.
-scene::Scene wall_scene() {
+/// A wall that fills a view of this aspect, and not much more, as floats resolve less of a larger one; seen straight on
+/// from 2 m away; white, lit by a sky.
+scene::Scene wall_scene(float aspect) {
+  const float half = std::max(4.0f, 2 * aspect);
   scene::Scene scene =
-      make_quad_scene({{{-1e4f, -4, 0}, {2e4f, 0, 0}, {0, 8, 0}}}, {}, look_at({0, 0, 2}, {0, 0, 0}, kFov));
+      make_quad_scene({{{-half, -4, 0}, {2 * half, 0, 0}, {0, 8, 0}}}, {}, look_at({0, 0, 2}, {0, 0, 0}, kFov));
   scene.environment.radiance = glm::vec3(1);
   scene.features.environment = true;
   return scene;
@@ -44,10 +47,10 @@ double unwritten(const image::HostImage& picture) {
 }
 
 std::vector<Figure> measure_sizes(Lab& lab, const std::vector<std::pair<uint32_t, uint32_t>>& sizes) {
-  const scene::Scene wall = wall_scene();
   const std::string graph = lab.shipped_graph("lightloom");
   std::vector<Figure> figures;
   for (const auto& [width, height] : sizes) {
+    const scene::Scene wall = wall_scene(static_cast<float>(width) / static_cast<float>(height));
     RunOptions options = small_run(width, height, 8);
     options.link.variants.clear();
     options.frames = 2;
