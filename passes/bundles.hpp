@@ -19,7 +19,7 @@ inline std::vector<PortPart> surface_parts() {
        "xyz: unit tangent (the direction of roughness x), orthogonal to normal; w: sign of the bitangent"},
       {"albedo", Format::rgba16_sfloat, "rgb: base colour, linear; w: metallic"},
       {"material", Format::rgba16_sfloat, "Ward alpha along the tangent and across it; specular F0; specular F90"},
-      {"emission", Format::rgba16_sfloat, "rgb: emitted radiance [W m^-2 sr^-1]; w: 1 if unlit"},
+      {"emission", Format::rgba32_sfloat, "rgb: emitted radiance [W m^-2 sr^-1]; w: 1 if unlit"},
       {"id", Format::rgba32_uint,
        "object id + 1 (0: background); material id; index of the triangle; weights of its corners b and c at the "
        "point, "

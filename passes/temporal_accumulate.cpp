@@ -6,7 +6,7 @@
 namespace lightloom::passes {
 namespace {
 
-constexpr float kUnknownVariance = 1e4f;  // as in shaders/lib/variance.glsl
+constexpr float kUnknownVariance = 1e36f;  // as in shaders/lib/variance.glsl
 
 }  // namespace
 
@@ -26,7 +26,7 @@ PassType make_temporal_accumulate() {
       "variance", Format::r32_sfloat, "radiance",
       "estimated variance of the luminance of the accumulated radiance: that of the accepted frames' weighted mean, "
       "from those frames where they are worth at least 4, else from up to 5 x 5 alike pixels of the current frame; "
-      "10000 where it is unknown, 0 where there is nothing to accumulate");
+      "1e36 where it is unknown, 0 where there is nothing to accumulate");
   variance.bypass = Bypass{"", {kUnknownVariance, 0, 0, 0}};
   Port trail_id = history_input("trail_id", Format::rgba32_uint,
                                 "`surface.id` of the same frames; without it objects and materials are not told apart");

@@ -33,7 +33,7 @@ layout(constant_id = 4) const float out_surface_albedo_largest = 65504.0;
 layout(constant_id = 5) const float out_surface_material_largest = 65504.0;
 layout(constant_id = 6) const float out_surface_emission_largest = 65504.0;
 
-const float kHalfMax = 65504.0;
+const float kLargestEmission = 3e38;   // an infinity would be NaN wherever it meets a 0
 
 // Along the view axis [m]; of an orthographic view from the near plane.
 float view_depth() {
@@ -58,7 +58,7 @@ void main() {
   out_surface_tangent = vec4(shading.tangent, shading.handedness);
   out_surface_albedo = vec4(m.base_color, m.metallic);
   out_surface_material = vec4(m.ward_alpha, m.f0, m.f90);
-  out_surface_emission = vec4(min(m.emission, vec3(kHalfMax)), m.unlit ? 1.0 : 0.0);
+  out_surface_emission = vec4(min(m.emission, vec3(kLargestEmission)), m.unlit ? 1.0 : 0.0);
   out_surface_id = uvec4(ids.y + 1u, id, ids.z, packUnorm2x16(weights));
 
   out_surface_position = storable(out_surface_position, out_surface_position_largest);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/scene/environment_sampler.hpp"
+
 namespace lightloom::reference {
 namespace {
 
@@ -30,13 +32,18 @@ EnvironmentLight::EnvironmentLight(const scene::Environment& environment) : envi
   if (shines_ && is_image()) build_table();
 }
 
+glm::vec3 EnvironmentLight::texel(size_t index) const {
+  const scene::Environment& from = *environment_;
+  return {scene::environment_texel(from, index * 3), scene::environment_texel(from, index * 3 + 1),
+          scene::environment_texel(from, index * 3 + 2)};
+}
+
 void EnvironmentLight::build_table() {
   const uint32_t width = environment_->width, height = environment_->height;
   const auto luminance = [&](int64_t x, int64_t y) {
     const auto column = static_cast<size_t>((x + width) % width);
     const auto row = static_cast<size_t>(std::clamp<int64_t>(y, 0, height - 1));
-    const float* rgb = &environment_->rgb[(row * width + column) * 3];
-    const glm::dvec3 color = glm::dvec3(rgb[0], rgb[1], rgb[2]) * glm::dvec3(environment_->radiance);
+    const glm::dvec3 color = glm::dvec3(texel(row * width + column)) * glm::dvec3(environment_->radiance);
     return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b;
   };
   // The mean of the filtered image over a texel's place takes an eighth of each neighbour along either axis.
@@ -75,14 +82,13 @@ glm::vec3 EnvironmentLight::radiance(const glm::vec3& direction) const {
   const int64_t width = environment_->width, height = environment_->height;
   const glm::dvec2 place = place_of(direction, environment_->width, environment_->height) - 0.5;
   const auto x = static_cast<int64_t>(std::floor(place.x)), y = static_cast<int64_t>(std::floor(place.y));
-  const auto texel = [&](int64_t column, int64_t row) {
-    const auto at = static_cast<size_t>(std::clamp<int64_t>(row, 0, height - 1) * width + (column + width) % width);
-    return glm::vec3(environment_->rgb[at * 3], environment_->rgb[at * 3 + 1], environment_->rgb[at * 3 + 2]);
+  const auto at = [&](int64_t column, int64_t row) {
+    return texel(static_cast<size_t>(std::clamp<int64_t>(row, 0, height - 1) * width + (column + width) % width));
   };
   const auto across = static_cast<float>(place.x - static_cast<double>(x));
   const auto down = static_cast<float>(place.y - static_cast<double>(y));
-  const glm::vec3 upper = glm::mix(texel(x, y), texel(x + 1, y), across);
-  const glm::vec3 lower = glm::mix(texel(x, y + 1), texel(x + 1, y + 1), across);
+  const glm::vec3 upper = glm::mix(at(x, y), at(x + 1, y), across);
+  const glm::vec3 lower = glm::mix(at(x, y + 1), at(x + 1, y + 1), across);
   return glm::mix(upper, lower, down) * environment_->radiance;
 }
 

@@ -26,6 +26,8 @@ class EnvironmentLight {
 
  private:
   [[nodiscard]] float pdf(const glm::vec3& direction) const;
+  /// Of the image, before its scale.
+  [[nodiscard]] glm::vec3 texel(size_t index) const;
   void build_table();
 
   const scene::Environment* environment_;

@@ -183,7 +183,7 @@ void SceneResources::upload_environment(gpu::Device& device) {
   std::vector<float> rgba;
   for (size_t texel = 0; texel < size_t{extent.width} * extent.height; ++texel) {
     for (size_t channel = 0; channel < 3; ++channel)
-      rgba.push_back(constant ? 1.0f : environment.rgb[texel * 3 + channel]);
+      rgba.push_back(constant ? 1.0f : scene::environment_texel(environment, texel * 3 + channel));
     rgba.push_back(1.0f);
   }
   environment_.push_back(upload_map(device, VK_FORMAT_R32G32B32A32_SFLOAT, extent, bytes_of(rgba), "environment map"));

@@ -44,7 +44,8 @@ std::vector<Share> shares(uint32_t cell, uint32_t cells, uint32_t texels, bool r
 
 double texel_luminance(const Environment& environment, uint32_t x, uint32_t y) {
   const size_t texel = (size_t{y} * environment.width + x) * 3;
-  const glm::vec3 color(environment.rgb[texel], environment.rgb[texel + 1], environment.rgb[texel + 2]);
+  const glm::vec3 color(environment_texel(environment, texel), environment_texel(environment, texel + 1),
+                        environment_texel(environment, texel + 2));
   return static_cast<double>(std::min(luminance(color * environment.radiance), std::numeric_limits<float>::max()));
 }
 

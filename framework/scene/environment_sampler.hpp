@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -28,6 +30,14 @@ struct EnvironmentTable {
   /// the polar angle at which row r ends.
   std::vector<glm::vec2> texels;
 };
+
+/// Radiance of a texel of the environment's image before its scale. What is no finite number of at least 0 counts as 0:
+/// one such texel would darken or lighten all that is sampled and filtered. Files that hold one are refused
+/// (images.hpp); this is for scenes made in memory.
+[[nodiscard]] inline float environment_texel(const Environment& environment, size_t index) {
+  const float value = environment.rgb[index];
+  return std::isfinite(value) && value >= 0 ? value : 0.0f;
+}
 
 /// A constant environment is one cell: uniform over the sphere. Where all is black, every probability and density is 0.
 [[nodiscard]] EnvironmentTable build_environment_table(const Environment& environment);

@@ -31,5 +31,7 @@ void add_metamorphic_checks(std::vector<Check>& checks);
 void add_random_checks(std::vector<Check>& checks);
 void add_shape_checks(std::vector<Check>& checks);
 void add_view_checks(std::vector<Check>& checks);
+void add_material_checks(std::vector<Check>& checks);
+void add_sampler_checks(std::vector<Check>& checks);
 
 }  // namespace lightloom::stability

@@ -10,6 +10,8 @@ std::vector<Check> all_checks() {
   add_view_checks(checks);
   add_metamorphic_checks(checks);
   add_random_checks(checks);
+  add_material_checks(checks);
+  add_sampler_checks(checks);
   return checks;
 }
 

@@ -34,7 +34,7 @@ uvec4 pcg4d(uvec4 v) {
 // Uniform in [0, 1 - 2^-24]: 24 bits are what a float holds, so 1 is never reached.
 vec4 uniform_floats(uvec4 bits) { return vec4(bits >> 8u) * (1.0 / 16777216.0); }
 
-// 128 independent random bits. `bounce` and `dimension` are below 256.
+// Four random words; their last 8 bits are less random than the others. `bounce` and `dimension` are below 256.
 uvec4 random_bits(RandomKey key, uint bounce, uint dimension) {
   uint place = key.pixel.x | (key.pixel.y << 16u);
   uint use = key.path | (bounce << 16u) | (dimension << 24u);

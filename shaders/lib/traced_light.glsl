@@ -24,8 +24,11 @@ struct TracedLight {
 };
 const TracedLight kNothingTraced = TracedLight(vec3(0.0), kNoLight);
 
-// Nothing that is not a number may reach the filters, which would spread it; infinities end at half's largest.
-vec3 bounded(vec3 light) { return is_finite(light) ? min(light, vec3(65504.0)) : vec3(0.0); }
+// The square, with which the filters reckon, and sums of it still fit into a float.
+const float kLargestLight = 1e18;
+
+// Nothing that is not a number may reach the filters, which would spread it.
+vec3 bounded(vec3 light) { return is_finite(light) ? min(light, vec3(kLargestLight)) : vec3(0.0); }
 
 // Adds what one path from `first` found.
 void add_path(inout TracedLight sum, PathVertex first, PerLobe light) {

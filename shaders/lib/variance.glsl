@@ -2,8 +2,9 @@
 #ifndef LIGHTLOOM_LIB_VARIANCE
 #define LIGHTLOOM_LIB_VARIANCE
 
-// What is written where no estimate can be made. Far above what any filter takes for noise.
-const float kUnknownVariance = 1e4;
+// What is written where no estimate can be made: the square of the brightest light that is traced (traced_light.glsl), so
+// that filters take it for noise however bright the scene; sums of nine still fit into a float.
+const float kUnknownVariance = 1e36;
 
 // Running sums over samples of one quantity (West 1979, "Updating mean and variance estimates", CACM 22(9)): no
 // difference of large numbers.
