@@ -33,5 +33,9 @@ void add_shape_checks(std::vector<Check>& checks);
 void add_view_checks(std::vector<Check>& checks);
 void add_material_checks(std::vector<Check>& checks);
 void add_sampler_checks(std::vector<Check>& checks);
+void add_light_checks(std::vector<Check>& checks);
+void add_source_checks(std::vector<Check>& checks);
+void add_accumulation_checks(std::vector<Check>& checks);
+void add_injection_checks(std::vector<Check>& checks);
 
 }  // namespace lightloom::stability

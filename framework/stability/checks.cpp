@@ -12,6 +12,10 @@ std::vector<Check> all_checks() {
   add_random_checks(checks);
   add_material_checks(checks);
   add_sampler_checks(checks);
+  add_light_checks(checks);
+  add_source_checks(checks);
+  add_accumulation_checks(checks);
+  add_injection_checks(checks);
   return checks;
 }
 
