@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace lightloom::stability {
@@ -17,11 +16,6 @@ scene::Material glossy() {
   material.roughness = 0.6f;
   material.double_sided = true;
   return material;
-}
-
-size_t texel_bytes(const image::HostImage& image) {
-  const Extent3 extent = image.desc.extent;
-  return image.texels.size() / (size_t{extent.width} * extent.height * extent.depth);
 }
 
 template <typename Visit>
@@ -103,16 +97,6 @@ std::vector<Images> trace(Lab& lab, const scene::Scene& scene, const TraceOption
   run.frames = options.frames;
   run.seed = options.seed;
   return lab.frames(text, scene, run);
-}
-
-double differing_texels(const image::HostImage& a, const image::HostImage& b) {
-  if (!(a.desc.extent == b.desc.extent) || a.texels.size() != b.texels.size())
-    return std::numeric_limits<double>::infinity();
-  double count = 0;
-  const size_t bytes = texel_bytes(a);
-  for (size_t at = 0; at < a.texels.size(); at += bytes)
-    if (std::memcmp(&a.texels[at], &b.texels[at], bytes) != 0) ++count;
-  return count;
 }
 
 double non_finite(const image::HostImage& image) {

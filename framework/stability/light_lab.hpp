@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/stability/differences.hpp"
 #include "framework/stability/lab.hpp"
 #include "framework/stability/scenes.hpp"
 
@@ -35,8 +36,6 @@ struct TraceOptions {
 /// The outputs `radiance` of the pass trace (divided by the modulation colour) and `position`, frame by frame.
 [[nodiscard]] std::vector<Images> trace(Lab& lab, const scene::Scene& scene, const TraceOptions& options);
 
-/// Texels that differ in any bit.
-[[nodiscard]] double differing_texels(const image::HostImage& a, const image::HostImage& b);
 /// Channels r, g, b that are no finite numbers.
 [[nodiscard]] double non_finite(const image::HostImage& image);
 /// Mean of a channel over all pixels with alpha above 0.
