@@ -11,10 +11,10 @@
 namespace lightloom::image {
 namespace {
 
-constexpr std::initializer_list<Format> kFormats = {Format::r8_unorm,    Format::rgba8_unorm,   Format::r16_sfloat,
-                                                    Format::rg16_sfloat, Format::r32_sfloat,    Format::rgba16_sfloat,
-                                                    Format::rg32_sfloat, Format::rgba32_sfloat, Format::r32_uint,
-                                                    Format::rg32_uint,   Format::rgba32_uint,   Format::d32_sfloat};
+constexpr std::initializer_list<Format> kFormats = {
+    Format::r8_unorm,   Format::rgba8_unorm,   Format::rgba16_unorm, Format::r16_sfloat,    Format::rg16_sfloat,
+    Format::r32_sfloat, Format::rgba16_sfloat, Format::rg32_sfloat,  Format::rgba32_sfloat, Format::r32_uint,
+    Format::rg32_uint,  Format::rgba32_uint,   Format::d32_sfloat};
 
 /// NaNs of any payload, denormals and negative zeros among them.
 TEST(DumpedImage, EveryFormatComesBackBitForBitFromBothKindsOfFile) {

@@ -68,9 +68,10 @@ TEST_P(NpyFormats, every_bit_survives) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, NpyFormats,
                          ::testing::Values(Case{Format::r8_unorm, "|u1", 1}, Case{Format::rgba8_unorm, "|u1", 4},
-                                           Case{Format::r16_sfloat, "<f2", 1}, Case{Format::rgba16_sfloat, "<f2", 4},
-                                           Case{Format::rg32_sfloat, "<f4", 2}, Case{Format::rgba32_sfloat, "<f4", 4},
-                                           Case{Format::r32_uint, "<u4", 1}, Case{Format::rg32_uint, "<u4", 2}));
+                                           Case{Format::rgba16_unorm, "<u2", 4}, Case{Format::r16_sfloat, "<f2", 1},
+                                           Case{Format::rgba16_sfloat, "<f2", 4}, Case{Format::rg32_sfloat, "<f4", 2},
+                                           Case{Format::rgba32_sfloat, "<f4", 4}, Case{Format::r32_uint, "<u4", 1},
+                                           Case{Format::rg32_uint, "<u4", 2}));
 
 std::string array_file(const std::string& header, size_t data_bytes) {
   std::string bytes("\x93NUMPY\x01\0", 8);
