@@ -1,11 +1,10 @@
 #include "framework/base/file.hpp"
 
 #include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "framework/base/error.hpp"
+#include "framework/base/input_file.hpp"
 
 namespace lightloom {
 namespace {
@@ -16,14 +15,17 @@ namespace {
 
 }  // namespace
 
-std::string read_text_file(const std::filesystem::path& path) {
+std::string read_text_file(const std::filesystem::path& path, uint64_t most_bytes) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail(path, std::generic_category().message(EISDIR));
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) fail(path, std::generic_category().message(errno != 0 ? errno : EIO));
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) fail(path, std::generic_category().message(EIO));
+  InputFile file(path);
+  if (file.problem() == "does not exist") fail(path, std::generic_category().message(ENOENT));
+  if (!file.problem().empty()) fail(path, "it " + file.problem());
+  if (file.size() > most_bytes) {
+    fail(path, "it has " + std::to_string(file.size()) + " bytes, expected at most " + std::to_string(most_bytes));
+  }
+  std::string text(static_cast<size_t>(file.size()), '\0');
+  if (!file.read(text.data(), text.size())) fail(path, std::generic_category().message(EIO));
   return text;
 }
 

@@ -65,21 +65,21 @@ class TreeBuilder {
   using string_t = std::string;
   using binary_t = nlohmann::json::binary_t;
 
-  TreeBuilder(std::string_view text, const std::string& file, Diagnostics& diagnostics)
-      : text_(text), file_(file), diagnostics_(diagnostics), lines_(text) {}
+  TreeBuilder(std::string_view text, const std::string& file, Diagnostics& diagnostics, uint64_t most_values)
+      : text_(text), file_(file), diagnostics_(diagnostics), lines_(text), values_left_(most_values) {}
 
   JsonNode take_root() { return std::move(root_); }
 
-  bool null() { return add(JsonKind::null, 4) != nullptr; }
+  bool null() { return add(JsonKind::null, 4) != nullptr && count(); }
   bool boolean(bool value) {
     add(JsonKind::boolean, value ? 4 : 5)->boolean = value;
-    return true;
+    return count();
   }
   bool number_integer(int64_t value) {
     JsonNode* node = add(JsonKind::integer, number_length());
     node->integer = value;
     node->real = static_cast<double>(value);
-    return true;
+    return count();
   }
   bool number_unsigned(uint64_t value) {
     if (value <= static_cast<uint64_t>(std::numeric_limits<int64_t>::max()))
@@ -88,11 +88,11 @@ class TreeBuilder {
   }
   bool number_float(double value, const std::string& /*text*/) {
     add(JsonKind::real, number_length())->real = value;
-    return true;
+    return count();
   }
   bool string(std::string& value) {
     add(JsonKind::string, string_length())->string = std::move(value);
-    return true;
+    return count();
   }
   bool binary(binary_t& /*value*/) { return false; }
   bool start_object(std::size_t /*size*/) { return open(JsonKind::object); }
@@ -211,7 +211,15 @@ class TreeBuilder {
     level.node.kind = kind;
     level.node.where = where;
     levels_.push_back(std::move(level));
-    return true;
+    return count();
+  }
+  bool count() {
+    if (values_left_ > 0) {
+      --values_left_;
+      return true;
+    }
+    diagnostics_.error("json-size", here(), "the file holds more values than are read");
+    return false;
   }
   bool close() {
     skip_to_token();
@@ -226,6 +234,7 @@ class TreeBuilder {
   const std::string& file_;
   Diagnostics& diagnostics_;
   LineCounter lines_;
+  uint64_t values_left_;
   std::size_t cursor_ = 0;  ///< behind the last token
   std::vector<Level> levels_;
   JsonNode root_;
@@ -259,10 +268,11 @@ std::string_view to_string(JsonKind kind) {
   return "an object";
 }
 
-std::optional<JsonNode> parse_json(std::string_view text, const std::string& file_name, Diagnostics& diagnostics) {
+std::optional<JsonNode> parse_json(std::string_view text, const std::string& file_name, Diagnostics& diagnostics,
+                                   uint64_t most_values) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  TreeBuilder builder(text, file_name, diagnostics);
+  TreeBuilder builder(text, file_name, diagnostics, most_values);
   try {
     if (!nlohmann::json::sax_parse(text.begin(), text.end(), &builder)) return std::nullopt;
   } catch (const nlohmann::json::exception& exception) {

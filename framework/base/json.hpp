@@ -39,12 +39,14 @@ struct JsonMember {
 [[nodiscard]] std::string_view to_string(JsonKind kind);  ///< "an object", "a string", … for messages
 
 constexpr std::size_t kJsonMaximumDepth = 64;
+constexpr uint64_t kJsonMaximumValues = 1'000'000;  ///< a node takes some 200 bytes
 
 /// RFC 8259 text to a tree. Columns count characters (code points) from 1; a line ends with LF, CRLF or CR; a leading
-/// UTF-8 byte order mark counts for nothing. Problems go to `diagnostics`: `json-syntax` (one, at the offending token)
-/// and `json-depth` (nested deeper than kJsonMaximumDepth) give an empty result; `duplicate-key` (at each second key)
-/// keeps the first, so that the caller can look for further problems. Never throws.
+/// UTF-8 byte order mark counts for nothing. Problems go to `diagnostics`: `json-syntax` (one, at the offending token),
+/// `json-depth` (nested deeper than kJsonMaximumDepth) and `json-size` (more values than `most_values`) give an empty
+/// result; `duplicate-key` (at each second key) keeps the first, so that the caller can look for further problems.
+/// Never throws.
 [[nodiscard]] std::optional<JsonNode> parse_json(std::string_view text, const std::string& file_name,
-                                                 Diagnostics& diagnostics);
+                                                 Diagnostics& diagnostics, uint64_t most_values = kJsonMaximumValues);
 
 }  // namespace lightloom

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "framework/cli/commands.hpp"
+#include "framework/cli/limit_options.hpp"
 #include "framework/cli/messages.hpp"
 #include "framework/cli/scene_option.hpp"
 #include "framework/graph/graph_spec.hpp"
@@ -17,6 +18,7 @@ namespace {
 struct CheckOptions {
   std::vector<std::filesystem::path> graphs;
   std::filesystem::path scene;
+  LimitOptions limits;
   bool json = false;
 };
 
@@ -76,7 +78,8 @@ nlohmann::ordered_json to_json(const Diagnostics& diagnostics) {
 }
 
 ExitCode check(const CheckOptions& options, const CommandContext& context) {
-  const std::optional<scene::Scene> scene = load_optional_scene(options.scene, context.err);
+  const std::optional<scene::Scene> scene =
+      load_optional_scene(options.scene, options.limits.load_options(), context.err);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   ExitCode code = ExitCode::done;
   for (const std::filesystem::path& file : options.graphs) {
@@ -102,6 +105,7 @@ void add_check_command(Command& program, const CommandContext& context) {
   command.option("--scene", options->scene,
                  "Scene to check against; a unit cube with every scene feature unless given");
   command.flag("--json", options->json, "Print JSON");
+  options->limits.add_to(command);
   command.action([options, &context] { return check(*options, context); });
 }
 

@@ -7,6 +7,7 @@
 #include "framework/cli/commands.hpp"
 #include "framework/cli/comparison.hpp"
 #include "framework/cli/comparison_report.hpp"
+#include "framework/cli/limit_options.hpp"
 #include "framework/cli/messages.hpp"
 #include "framework/image/metric_names.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr double kMostPixelsPerDegree = 1000;
 
 struct CompareOptions {
+  LimitOptions limits;
   ComparisonRequest request;
   std::string flip;
   std::string crop;
@@ -65,6 +67,7 @@ std::vector<std::string> wanted_metrics(const CompareOptions& options) {
 
 ComparisonRequest complete_request(const CompareOptions& options) {
   ComparisonRequest request = options.request;
+  request.read.limits = options.limits.load_options().limits;
   const std::vector<std::string> wanted = wanted_metrics(options);
   const auto has = [&wanted](const char* name) {
     return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
@@ -160,6 +163,7 @@ void add_compare_command(Command& program, const CommandContext& context) {
       .check([](std::string_view text) {
         return check_extension(text, {".png", ".exr"});
       });
+  options->limits.add_limits_to(command);
   command.flag("--json", options->json, "Print JSON; null where a figure is infinite or undefined");
   command.action([options, &context] { return compare(*options, context); });
 }

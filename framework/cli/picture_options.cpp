@@ -44,6 +44,7 @@ void PictureOptions::add_to(Command& command) {
   group(command.option("--seed", seed, "Seed of all random numbers"));
   add_shaders_option(command, shaders);
   changes.add_to(command);
+  limits.add_to(command);
 }
 
 run::RenderRequest PictureOptions::request(const CommandContext& context) const {
@@ -53,6 +54,7 @@ run::RenderRequest PictureOptions::request(const CommandContext& context) const 
   request.shaders.sources.insert(request.shaders.sources.begin(), shaders.begin(), shaders.end());
   request.graph = graph;
   request.scene = scene;
+  request.load = limits.load_options();
   request.link = changes.link_options();
   request.compile = changes.compile_options();
   request.camera = camera;

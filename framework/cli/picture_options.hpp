@@ -7,6 +7,7 @@
 
 #include "framework/cli/argument_parser.hpp"
 #include "framework/cli/graph_options.hpp"
+#include "framework/cli/limit_options.hpp"
 #include "framework/cli/program.hpp"
 #include "framework/run/render.hpp"
 
@@ -17,6 +18,7 @@ struct PictureOptions {
   std::filesystem::path graph;
   std::filesystem::path scene;
   GraphOptions changes;
+  LimitOptions limits;
   std::string camera;
   std::filesystem::path camera_path;
   Range frames;

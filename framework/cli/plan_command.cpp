@@ -6,6 +6,7 @@
 #include "framework/base/atomic_file.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/graph_options.hpp"
+#include "framework/cli/limit_options.hpp"
 #include "framework/cli/messages.hpp"
 #include "framework/cli/scene_option.hpp"
 #include "framework/gpu/memory.hpp"
@@ -26,6 +27,7 @@ namespace {
 struct PlanOptions {
   std::filesystem::path graph;
   std::filesystem::path scene;
+  LimitOptions limits;
   GraphOptions changes;
   std::string format = "text";
   std::filesystem::path out;
@@ -89,7 +91,8 @@ std::string written(const PlanOptions& options, const Plan& plan, const PlanFact
 }
 
 ExitCode print(const PlanOptions& options, const CommandContext& context) {
-  const std::optional<scene::Scene> scene = load_optional_scene(options.scene, context.err);
+  const std::optional<scene::Scene> scene =
+      load_optional_scene(options.scene, options.limits.load_options(), context.err);
   Diagnostics diagnostics;
   std::optional<Plan> plan =
       run::compile_graph(options.graph, context.registry, options.changes.link_options(), scene ? &*scene : nullptr,
@@ -136,6 +139,7 @@ void add_plan_command(Command& program, const CommandContext& context) {
       "it is wrong");
   command.option("--device", options->device, "Device of --memory and --verify, by index or part of its name")
       .placeholder("NAME");
+  options->limits.add_to(command);
   command.action([options, &context] { return print(*options, context); });
 }
 

@@ -7,6 +7,7 @@
 #include "framework/base/text.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/graph_options.hpp"
+#include "framework/cli/limit_options.hpp"
 #include "framework/cli/messages.hpp"
 #include "framework/cli/picture_options.hpp"
 #include "framework/run/replay.hpp"
@@ -20,6 +21,7 @@ struct ReplayOptions {
   std::optional<uint32_t> frame;
   std::filesystem::path graph;
   std::filesystem::path scene;
+  LimitOptions limits;
   std::vector<Assignment> sets;
   std::vector<Assignment> swaps;
   std::vector<std::filesystem::path> shaders;
@@ -38,6 +40,7 @@ run::ReplayRequest make_request(const ReplayOptions& options, const CommandConte
   request.frame = options.frame;
   request.graph = options.graph;
   request.scene = options.scene;
+  request.load = options.limits.load_options();
   for (const Assignment& set : options.sets) request.sets.emplace_back(set.name, set.value);
   for (const Assignment& swap : options.swaps) request.swaps.emplace_back(swap.name, swap.value);
   request.compile = GraphOptions().compile_options();
@@ -140,6 +143,7 @@ void add_replay_command(Command& program, const CommandContext& context, const s
                      "pattern)"));
   changes(command.option("--swap", options->swaps, "Exchange the type of the passes that match"))
       .placeholder("GLOB=TYPE");
+  options->limits.add_to(command);
   add_shaders_option(command, options->shaders);
   command.option("--device", options->device, "Device by index or part of its name; 'lightloom devices' lists them")
       .placeholder("NAME");

@@ -6,6 +6,7 @@
 
 #include "framework/base/text.hpp"
 #include "framework/cli/commands.hpp"
+#include "framework/cli/limit_options.hpp"
 #include "framework/cli/messages.hpp"
 #include "framework/cli/text_layout.hpp"
 #include "framework/run/provenance.hpp"
@@ -18,6 +19,7 @@ constexpr double kDegreesPerRadian = 57.29577951308232;
 
 struct SceneOptions {
   std::filesystem::path file;
+  LimitOptions limits;
   bool json = false;
 };
 
@@ -110,7 +112,7 @@ nlohmann::ordered_json to_json(const scene::Scene& scene) {
 }
 
 ExitCode describe(const SceneOptions& options, const CommandContext& context) {
-  const scene::Scene scene = scene::load_scene(options.file);
+  const scene::Scene scene = scene::load_scene(options.file, options.limits.load_options());
   for (const std::string& warning : scene.warnings) print_warning(context.err, warning);
   if (options.json) {
     context.out << to_json(scene).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
@@ -128,6 +130,7 @@ void add_scene_command(Command& program, const CommandContext& context) {
   auto options = std::make_shared<SceneOptions>();
   command.positional("FILE", options->file, "Scene: .gltf, .glb or .scene.json").required();
   command.flag("--json", options->json, "Print JSON");
+  options->limits.add_to(command);
   command.action([options, &context] { return describe(*options, context); });
 }
 

@@ -188,6 +188,7 @@ void StudyOptions::add_to(Command& command) {
   command.option("-o,--out", out, "Folder of the study, made if missing")
       .placeholder("DIR")
       .default_text("out/ and the study's name");
+  limits.add_to(command);
   command.option("--jobs", jobs, "Cells rendered at the same time; more than 1 spoils the times")
       .range(1, study::kMostJobs);
   command.option("--device", device, "Device by index or part of its name").placeholder("NAME");

@@ -7,6 +7,7 @@
 
 #include "framework/base/diagnostics.hpp"
 #include "framework/cli/argument_parser.hpp"
+#include "framework/cli/limit_options.hpp"
 #include "framework/study/study_spec.hpp"
 
 namespace lightloom::cli {
@@ -15,6 +16,7 @@ namespace lightloom::cli {
 struct StudyOptions {
   std::filesystem::path study;
   std::filesystem::path out;
+  LimitOptions limits;
   std::optional<uint32_t> jobs;
   std::string device;
   bool fresh = false;

@@ -3,8 +3,6 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -12,6 +10,7 @@
 
 #include "framework/base/atomic_file.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/input_file.hpp"
 
 // numpy.lib.format, version 1.0: magic, version, little-endian u16 header length, a Python dictionary padded with
 // spaces so that the data begins at a multiple of 64 bytes, then the data.
@@ -128,26 +127,32 @@ void write_npy(const std::filesystem::path& file, const HostImage& image) {
   write_file_atomically(file, bytes);
 }
 
-HostImage read_npy(const std::filesystem::path& file) {
+HostImage read_npy(const std::filesystem::path& file, const Limits* limits) {
   const auto fail = [&file](const std::string& cause) {
     throw Error(ExitCode::invalid_input, "cannot read '" + file.string() + "' as .npy: " + cause);
   };
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail("the file cannot be opened");
-  const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (bytes.size() < kPreamble || !bytes.starts_with(kMagic)) fail("it does not begin as a version 1.0 array");
+  InputFile source(file);
+  if (!source.problem().empty()) fail("the file " + source.problem());
+  std::string begin(kPreamble, '\0');
+  if (!source.read(begin.data(), begin.size()) || !begin.starts_with(kMagic))
+    fail("it does not begin as a version 1.0 array");
   const size_t header_size =
-      static_cast<uint8_t>(bytes[8]) + (static_cast<size_t>(static_cast<uint8_t>(bytes[9])) << 8);
-  if (bytes.size() < kPreamble + header_size) fail("it ends within its header");
-  const std::optional<ImageDesc> desc = parse_header(std::string_view(bytes).substr(kPreamble, header_size));
+      static_cast<uint8_t>(begin[8]) + (static_cast<size_t>(static_cast<uint8_t>(begin[9])) << 8);
+  std::string text(header_size, '\0');
+  if (!source.read(text.data(), text.size())) fail("it ends within its header");
+  const std::optional<ImageDesc> desc = parse_header(text);
   if (!desc) fail("its header does not describe an image or volume of a known texel format");
-  const size_t data = kPreamble + header_size;
-  if (bytes.size() - data != byte_size(*desc)) {
-    fail("it has " + std::to_string(bytes.size() - data) + " bytes of data where its shape needs " +
-         std::to_string(byte_size(*desc)));
+  const uint64_t data = source.size() - kPreamble - header_size;
+  if (data != byte_size(*desc)) {
+    fail("it has " + std::to_string(data) + " bytes of data where its shape needs " + std::to_string(byte_size(*desc)));
   }
-  HostImage image{*desc, std::vector<std::byte>(bytes.size() - data)};
-  std::memcpy(image.texels.data(), bytes.data() + data, image.texels.size());
+  const Extent3& extent = desc->extent;
+  if (limits != nullptr) {
+    require_within(*limits, &Limits::float_texels, "'" + file.string() + "'",
+                   uint64_t{extent.width} * extent.height * extent.depth);
+  }
+  HostImage image{*desc, std::vector<std::byte>(data)};
+  if (!source.read(image.texels.data(), data)) fail("it cannot be read");
   return image;
 }
 

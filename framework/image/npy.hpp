@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "framework/base/limits.hpp"
 #include "framework/image/host_image.hpp"
 
 namespace lightloom::image {
@@ -12,7 +13,8 @@ namespace lightloom::image {
 void write_npy(const std::filesystem::path& file, const HostImage& image);
 
 /// Reads what `write_npy` writes. Other dtypes, Fortran order, other ranks, channel counts that no texel format has,
-/// and files that are too short or too long are Error (invalid_input).
-[[nodiscard]] HostImage read_npy(const std::filesystem::path& file);
+/// and files that are too short or too long are Error (invalid_input), and what is beyond float_texels of `limits`, if
+/// given. No more is read than the header says.
+[[nodiscard]] HostImage read_npy(const std::filesystem::path& file, const Limits* limits = nullptr);
 
 }  // namespace lightloom::image

@@ -9,6 +9,8 @@
 #include <optional>
 
 #include "framework/base/error.hpp"
+#include "framework/base/image_header.hpp"
+#include "framework/base/input_file.hpp"
 #include "framework/base/text.hpp"
 #include "framework/image/npy.hpp"
 #include "framework/image/oiio_io.hpp"
@@ -105,9 +107,24 @@ HostImage select(const std::vector<float>& samples, const OIIO::ImageSpec& spec,
 
 ReadImage read_numpy(const std::filesystem::path& file, const ReadOptions& options) {
   if (!options.channel.empty()) fail(file, "the channels of .npy files have no names to choose by");
-  ReadImage result{read_npy(file), false, false};
+  ReadImage result{read_npy(file, &options.limits), false, false};
   result.display = channel_type(result.image.desc.format) == ChannelType::unorm8;
   return result;
+}
+
+/// Other formats than the four are left to OpenImageIO, and asked for their size when it has opened them.
+void require_file_within(const std::filesystem::path& file, const Limits& limits) {
+  InputFile source(file);
+  if (source.problem() == "does not exist") fail(file, "there is no such file");
+  if (!source.problem().empty()) fail(file, "it " + source.problem());
+  require_within(limits, &Limits::file_bytes, "'" + file.string() + "'", source.size());
+  std::vector<uint8_t> bytes(static_cast<size_t>(source.size()));
+  if (!source.read(bytes.data(), bytes.size())) fail(file, "it cannot be read");
+  if (image_file_format(bytes) == ImageFileFormat::unknown) return;
+  std::string problem;
+  const std::optional<ImageHeader> header = read_image_header(bytes, problem);
+  if (!header) fail(file, "it " + problem);
+  require_image_within(*header, limits, &Limits::float_texels, "'" + file.string() + "'");
 }
 
 }  // namespace
@@ -116,8 +133,13 @@ ReadImage read_image(const std::filesystem::path& file, const ReadOptions& optio
   if (lower(file.extension().string()) == ".npy") return read_numpy(file, options);
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
+  require_file_within(file, options.limits);
   const std::unique_ptr<OIIO::ImageInput> input = open_image(file, config);
   const OIIO::ImageSpec& spec = input->spec();
+  require_image_within({.width = static_cast<uint64_t>(spec.width),
+                        .height = static_cast<uint64_t>(spec.height),
+                        .channels = static_cast<uint64_t>(spec.nchannels)},
+                       options.limits, &Limits::float_texels, "'" + file.string() + "'");
   const Channels channels = choose_channels(file, spec, options.channel);
   const OIIO::TypeDesc type = spec.channelformat(static_cast<int>(channels.front()));
   if (!is_display(type) && !type.is_floating_point())

@@ -198,9 +198,9 @@ void probe_frames(const ProbeRequest& request, Prober& prober, Executor& executo
 bool probe(const ProbeRequest& request, const PassRegistry& registry, const FrameCallback& on_frame,
            Diagnostics& diagnostics, ProbeReport& report) {
   const RenderRequest& render = request.render;
-  const scene::Scene scene = scene::load_scene(render.scene);
+  const scene::Scene scene = scene::load_scene(render.scene, render.load);
   std::optional<scene::CameraPath> path;
-  if (!render.camera_path.empty()) path = scene::read_camera_path(render.camera_path);
+  if (!render.camera_path.empty()) path = scene::read_camera_path(render.camera_path, render.load.limits);
   const std::optional<Graph> graph =
       link_text(read_text_file(render.graph), render.graph, registry, render.link, &scene, diagnostics, render.shaders);
   if (!graph) return false;

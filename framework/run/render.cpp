@@ -227,11 +227,11 @@ const std::filesystem::path& Renderer::noted(const std::filesystem::path& file) 
 
 void Renderer::load(const RenderRequest& request) {
   if (scene_) return;
-  FileContents files = scene::content_files(request.scene);
+  FileContents files = scene::content_files(request.scene, request.load);
   files_.insert(files.begin(), files.end());
   scene_ = std::make_unique<LoadedScene>(LoadedScene{.files = std::move(files),
-                                                     .scene = scene::load_scene(request.scene),
-                                                     .hash = hex(scene::content_hash(request.scene))});
+                                                     .scene = scene::load_scene(request.scene, request.load),
+                                                     .hash = hex(scene::content_hash(request.scene, request.load))});
 }
 
 FileContents Renderer::files_read() const {
@@ -253,7 +253,7 @@ bool Renderer::render(const RenderRequest& request, const RenderEvents& events, 
   files_.clear();
   const std::filesystem::path& graph_file = noted(request.graph);
   std::optional<scene::CameraPath> path;
-  if (!request.camera_path.empty()) path = scene::read_camera_path(noted(request.camera_path));
+  if (!request.camera_path.empty()) path = scene::read_camera_path(noted(request.camera_path), request.load.limits);
   load(request);
   const scene::Scene& scene = scene_->scene;
   const std::string graph_text = read_text_file(graph_file);

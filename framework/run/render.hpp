@@ -19,6 +19,7 @@
 #include "framework/run/run_folder.hpp"
 #include "framework/run/shader_folders.hpp"
 #include "framework/run/shader_library.hpp"
+#include "framework/scene/load_options.hpp"
 
 namespace lightloom::run {
 
@@ -26,6 +27,7 @@ namespace lightloom::run {
 struct RenderRequest {
   std::filesystem::path graph;
   std::filesystem::path scene;
+  scene::LoadOptions load;            ///< what the files of the scene may ask for
   LinkOptions link;                   ///< variants, disables, swaps, sets, captures (--dump), view size
   CompileOptions compile;             ///< how the graph is executed
   CheckOptions checks;                ///< what to look for in every value

@@ -56,8 +56,9 @@ fs::path out_folder(const ReplayRequest& request) {
 }
 
 Replay open_replay(const ReplayRequest& request, const RecordedRun& run) {
-  Replay replay{request, run, scene::load_scene(request.scene.empty() ? run.scene : request.scene), std::nullopt, 0};
-  if (!run.camera_path.empty()) replay.path = scene::read_camera_path(run.camera_path);
+  Replay replay{request, run, scene::load_scene(request.scene.empty() ? run.scene : request.scene, request.load),
+                std::nullopt, 0};
+  if (!run.camera_path.empty()) replay.path = scene::read_camera_path(run.camera_path, request.load.limits);
   replay.frame = frame_to_replay(run, request.frame);
   return replay;
 }
@@ -84,7 +85,7 @@ std::vector<std::string> changes_of(const Replay& replay, const std::string& gra
   for (const auto& [pass, type] : request.swaps) changes.push_back("--swap " + pass + "=" + type);
   for (const auto& [param, value] : request.sets) changes.push_back("--set " + param + "=" + value);
   if (graph_text != run.graph_text) changes.push_back("the graph, taken from '" + request.graph.string() + "'");
-  if (hex(scene::content_hash(replay.scene.file)) != run.scene_hash)
+  if (hex(scene::content_hash(replay.scene.file, replay.request.load)) != run.scene_hash)
     changes.push_back("the scene '" + replay.scene.file.string() + "'");
   if (!same_path(replay)) changes.push_back("the camera path '" + run.camera_path.string() + "'");
   if (hex(shaders_hash(request.shaders)) != run.shaders) changes.emplace_back("the shaders");

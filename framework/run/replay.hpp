@@ -15,6 +15,7 @@
 #include "framework/run/frame_result.hpp"
 #include "framework/run/plugins.hpp"
 #include "framework/run/shader_folders.hpp"
+#include "framework/scene/load_options.hpp"
 
 namespace lightloom::run {
 
@@ -25,6 +26,7 @@ struct ReplayRequest {
   std::optional<uint32_t> frame;    ///< the last dumped one unless given
   std::filesystem::path graph;      ///< an edited graph file; empty: the graph as it was recorded
   std::filesystem::path scene;      ///< where the scene is now; empty: as recorded
+  scene::LoadOptions load;          ///< what the files of the scene may ask for
   std::vector<std::pair<std::string, std::string>> swaps;  ///< as in LinkOptions, after those of the run
   std::vector<std::pair<std::string, std::string>> sets;
   CompileOptions compile;

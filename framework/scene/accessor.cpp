@@ -6,11 +6,10 @@
 #include <cstring>
 
 #include "framework/scene/fail.hpp"
+#include "framework/scene/input_context.hpp"
 
 namespace lightloom::scene {
 namespace {
-
-constexpr size_t kMaxZeroElements = size_t{1} << 24;
 
 struct ComponentType {
   int gltf;
@@ -129,11 +128,7 @@ AccessorReader::Layout AccessorReader::layout(int accessor, const AccessorRule& 
   const size_t element_size = type.width * parts.size;
   result.stride = element_size;
   if (source.bufferView < 0) {
-    if (source.count > kMaxZeroElements) {
-      fail(file_.name, element_name,
-           "has no buffer view but " + std::to_string(source.count) + " elements, expected at most " +
-               std::to_string(kMaxZeroElements));
-    }
+    spend(result, element_name);
     return result;
   }
   const size_t stride = file_.model.bufferViews[static_cast<size_t>(source.bufferView)].byteStride;
@@ -145,7 +140,12 @@ AccessorReader::Layout AccessorReader::layout(int accessor, const AccessorRule& 
   if (stride != 0) result.stride = stride;
   result.bytes =
       view_bytes(source.bufferView, source.byteOffset, element_size, result.stride, source.count, element_name);
+  spend(result, element_name);
   return result;
+}
+
+void AccessorReader::spend(const Layout& layout, const std::string& use) const {
+  file_.context->spend_accessor_values(multiply_saturated(layout.count, layout.width), file_.name + ": " + use);
 }
 
 AccessorReader::Sparse AccessorReader::sparse(int accessor, const Layout& base, const std::string& use) const {

@@ -53,6 +53,8 @@ class AccessorReader {
   };
 
   [[nodiscard]] Layout layout(int accessor, const AccessorRule& rule, const std::string& use) const;
+  /// Counts what is about to be allocated.
+  void spend(const Layout& layout, const std::string& use) const;
   [[nodiscard]] Sparse sparse(int accessor, const Layout& base, const std::string& use) const;
   [[nodiscard]] std::span<const uint8_t> view_bytes(int buffer_view, uint64_t offset, size_t element, size_t stride,
                                                     size_t count, const std::string& use) const;

@@ -9,13 +9,12 @@
 #include "framework/scene/basis.hpp"
 #include "framework/scene/fail.hpp"
 #include "framework/scene/gltf_materials.hpp"
+#include "framework/scene/input_context.hpp"
 #include "framework/scene/origin.hpp"
 
 namespace lightloom::scene {
 namespace {
 
-constexpr size_t kMaxVertices = size_t{1} << 26;
-constexpr size_t kMaxTriangles = size_t{1} << 27;
 constexpr float kMaxCoordinate = 1e15f;  ///< squares of differences must stay finite in single precision
 
 /// An asset and where its materials start in the scene.
@@ -26,7 +25,8 @@ struct PlacedAsset {
 
 class Assembler {
  public:
-  explicit Assembler(const std::filesystem::path& path) : source_(std::make_shared<SceneSource>()) {
+  Assembler(const std::filesystem::path& path, const LoadOptions& options)
+      : context_(path, options), source_(std::make_shared<SceneSource>()) {
     scene_.file = path;
   }
 
@@ -52,7 +52,7 @@ class Assembler {
     if (found != assets_.end()) return found->second;
     PlacedAsset& result = assets_[key];
     try {
-      result.asset = std::make_unique<GltfAsset>(load_asset(instance.gltf));
+      result.asset = std::make_unique<GltfAsset>(load_asset(instance.gltf, context_));
     } catch (const Error& error) {
       if (instance.where.empty()) throw;
       throw Error(error.code(), instance.where + ": " + error.what(), error.hint());
@@ -84,9 +84,24 @@ class Assembler {
     return *default_material_;
   }
 
+  /// What an instance adds to the lists of all instances.
+  void require_instance_within(const GltfAsset& asset) {
+    const std::string name = "the scene with " + asset.file.name;
+    require(&Limits::nodes, name, source_->nodes.size() + asset.nodes.size() + 1);
+    for (const SourceNode& node : asset.nodes) morph_weights_ += node.weights.size();
+    require(&Limits::morph_weights, name, morph_weights_);
+    for (const SourceSkin& skin : asset.skins) joints_ += skin.joints.size();
+    require(&Limits::joints, name, joints_);
+  }
+
+  void require(uint64_t Limits::*limit, const std::string& element, uint64_t claimed) const {
+    require_within(context_.limits(), limit, scene_.file.string() + ": " + element, claimed);
+  }
+
   void add_instance(const InstanceSpec& instance, bool is_main) {
     const PlacedAsset& found = placed(instance);
     const GltfAsset& asset = *found.asset;
+    require_instance_within(asset);
     SourceNode root;
     root.translation = instance.translation;
     root.rotation = glm::angleAxis(instance.rotation_y, glm::vec3(0, 1, 0));
@@ -131,6 +146,8 @@ class Assembler {
         draw.material = material_index(found, primitive->material);
         draw.object = object;
         if (transmits(scene_.materials[draw.material])) continue;
+        if (source.skin >= 0) joints_ += asset.skins[static_cast<size_t>(source.skin)].joints.size();
+        require(&Limits::joints, "with nodes[" + std::to_string(node) + "] the scene", joints_);
         draws_.push_back(std::move(draw));
       }
     }
@@ -175,6 +192,10 @@ class Assembler {
     Clip clip;
     clip.duration = asset.animations[static_cast<size_t>(chosen)].duration;
     clip.offset = instance.time_offset;
+    for (const Track& track : asset.animations[static_cast<size_t>(chosen)].tracks)
+      animation_values_ += track.times.size() + track.values.size();
+    require(&Limits::animation_values,
+            "the scene with animations[" + std::to_string(chosen) + "] of " + asset.file.name, animation_values_);
     for (Track track : asset.animations[static_cast<size_t>(chosen)].tracks) {
       track.node = global[static_cast<size_t>(track.node)];
       SourceNode& node = source_->nodes[static_cast<size_t>(track.node)];
@@ -216,16 +237,13 @@ class Assembler {
   }
 
   void place_draws() {
-    size_t vertices = 0, triangles = 0;
+    uint64_t vertices = 0, triangles = 0;
     for (const Draw& draw : draws_) {
       vertices += draw.primitive->vertices.size();
       triangles += draw.primitive->indices.size() / 3;
-      if (vertices > kMaxVertices || triangles > kMaxTriangles) {
-        fail(scene_.file.string(), "the scene",
-             "has more than " + std::to_string(kMaxVertices) + " vertices or " + std::to_string(kMaxTriangles) +
-                 " triangles, expected fewer");
-      }
     }
+    require(&Limits::vertices, "the scene with all instances", vertices);
+    require(&Limits::triangles, "the scene with all instances", triangles);
     const NodeState state = evaluate_nodes(*source_, 0);
     for (Draw& draw : draws_) {
       if (!is_dynamic(draw)) add_geometry(draw, state, false);
@@ -281,6 +299,7 @@ class Assembler {
     }
   }
 
+  InputContext context_;
   Scene scene_;
   std::shared_ptr<SceneSource> source_;
   std::map<std::string, PlacedAsset> assets_;
@@ -288,12 +307,13 @@ class Assembler {
   std::vector<bool> deforms_;  ///< by node: its morph weights are animated
   std::optional<uint32_t> default_material_;
   size_t dropped_ = 0;
+  uint64_t morph_weights_ = 0, joints_ = 0, animation_values_ = 0;  ///< of all instances so far
 };
 
 }  // namespace
 
-Scene assemble(const std::filesystem::path& path, const SceneFile& file) {
-  return Assembler(path).build(file);
+Scene assemble(const std::filesystem::path& path, const SceneFile& file, const LoadOptions& options) {
+  return Assembler(path, options).build(file);
 }
 
 }  // namespace lightloom::scene

@@ -12,6 +12,7 @@ namespace {
 constexpr double kSampleRate = 30;     ///< [Hz]
 constexpr double kVertexBudget = 6e7;  ///< posed vertices over all samples of a clip
 constexpr double kMinSamples = 64;
+constexpr double kMaxSamples = 65536;
 constexpr float kDynamicPadding = 0.02f;  ///< of the diagonal of what moves
 
 struct Box {
@@ -26,7 +27,8 @@ struct Box {
 
 // Scene times at which a clip is looked at; each clip repeats, so one of its periods suffices for what it moves.
 std::set<double> sample_times(const Clip& clip, size_t vertices) {
-  const double affordable = std::max(kMinSamples, kVertexBudget / static_cast<double>(std::max<size_t>(vertices, 1)));
+  const double affordable =
+      std::clamp(kVertexBudget / static_cast<double>(std::max<size_t>(vertices, 1)), kMinSamples, kMaxSamples);
   const double wanted = std::min(affordable, std::ceil(clip.duration * kSampleRate) + 1);
   std::set<double> times;
   for (double i = 0; i < wanted; ++i) times.insert(clip.duration * i / wanted);
@@ -42,10 +44,9 @@ std::set<double> sample_times(const Clip& clip, size_t vertices) {
 
 // A clip moves nodes of one instance only, so clips are looked at one by one: the box of a draw over the samples of a
 // clip that does not move it is one of its poses and does no harm.
-void add_clip_poses(const Scene& scene, const Clip& clip, std::vector<Box>& boxes) {
-  const size_t vertices = scene.vertices.size() - scene.static_vertex_count;
+void add_clip_poses(const Scene& scene, const Clip& clip, const std::set<double>& times, std::vector<Box>& boxes) {
   std::vector<Vertex> posed;
-  for (const double time : sample_times(clip, vertices)) {
+  for (const double time : times) {
     const NodeState state = evaluate_nodes(*scene.source, time - clip.offset);
     for (size_t d = 0; d < scene.source->draws.size(); ++d) {
       const Draw& draw = scene.source->draws[d];
@@ -56,9 +57,15 @@ void add_clip_poses(const Scene& scene, const Clip& clip, std::vector<Box>& boxe
   }
 }
 
-Box bounds_of_moving(const Scene& scene) {
+Box bounds_of_moving(const Scene& scene, const Limits& limits) {
   std::vector<Box> boxes(scene.source->draws.size());
-  for (const Clip& clip : scene.source->clips) add_clip_poses(scene, clip, boxes);
+  const size_t vertices = scene.vertices.size() - scene.static_vertex_count;
+  uint64_t posed = 0;
+  for (const Clip& clip : scene.source->clips) {
+    posed += sample_times(clip, vertices).size() * (vertices + scene.source->nodes.size());
+    require_within(limits, &Limits::posed_elements, scene.file.string() + ": the animation", posed);
+  }
+  for (const Clip& clip : scene.source->clips) add_clip_poses(scene, clip, sample_times(clip, vertices), boxes);
   Box all;
   for (const Box& box : boxes) {
     if (box.empty()) continue;
@@ -71,13 +78,13 @@ Box bounds_of_moving(const Scene& scene) {
 
 }  // namespace
 
-Bounds find_bounds(const Scene& scene) {
+Bounds find_bounds(const Scene& scene, const Limits& limits) {
   Box box;
   for (const Triangle& triangle : scene.triangles) {
     for (const uint32_t corner : {triangle.a, triangle.b, triangle.c}) box.add(scene.vertices[corner].position);
   }
   if (scene.static_triangle_count < scene.triangles.size()) {
-    const Box moving = bounds_of_moving(scene);
+    const Box moving = bounds_of_moving(scene, limits);
     box.add(moving.min);
     box.add(moving.max);
   }

@@ -112,8 +112,8 @@ std::string to_string(PathInterpolation interpolation) {
   return interpolation == PathInterpolation::linear ? "linear" : "catmull_rom";
 }
 
-CameraPath read_camera_path(const std::filesystem::path& path) {
-  const JsonNode root = parse_json_file(path);
+CameraPath read_camera_path(const std::filesystem::path& path, const Limits& limits) {
+  const JsonNode root = parse_json_file(path, limits);
   JsonMembers members(root, "the camera path", "");
   CameraPath result;
   result.file = path;

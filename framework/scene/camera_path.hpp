@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "framework/base/limits.hpp"
 #include "framework/scene/scene.hpp"
 
 namespace lightloom::scene {
@@ -41,7 +42,7 @@ struct CameraPath {
 
 /// Reads a camera path file (docs/scene_files.md). Throws Error(invalid_input) with file, line and column; unknown
 /// members are errors.
-[[nodiscard]] CameraPath read_camera_path(const std::filesystem::path& path);
+[[nodiscard]] CameraPath read_camera_path(const std::filesystem::path& path, const Limits& limits = {});
 
 /// `camera` at `time` [s] of the path: its pose, in the world less `origin` [m], and its field of view if the path has
 /// one.

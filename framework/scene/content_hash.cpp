@@ -1,6 +1,5 @@
 #include "framework/scene/content_hash.hpp"
 
-#include <cctype>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -10,22 +9,12 @@
 #include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
 #include "framework/base/hash.hpp"
+#include "framework/scene/gltf_uri.hpp"
+#include "framework/scene/input_context.hpp"
+#include "framework/scene/json_scan.hpp"
 
 namespace lightloom::scene {
 namespace {
-
-constexpr size_t kLongestPath = 4096;
-
-std::string percent_decoded(const std::string& uri) {
-  std::string decoded;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    const bool escape = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
-                        std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
-    decoded += escape ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
-    if (escape) i += 2;
-  }
-  return decoded;
-}
 
 /// The JSON of a scene file, a glTF file or a GLB container; empty for other files.
 std::string_view json_of(std::string_view bytes) {
@@ -39,56 +28,81 @@ std::string_view json_of(std::string_view bytes) {
   return first != std::string_view::npos && bytes[first] == '{' ? bytes : std::string_view();
 }
 
+enum class Role : uint8_t { scene_file, gltf, data };
+
 class ContentHasher {
  public:
   /// With `files`, they are hashed one by one instead of together.
-  explicit ContentHasher(FileContents* files = nullptr) : files_(files) {}
+  ContentHasher(const std::filesystem::path& main_file, const LoadOptions& options, FileContents* files = nullptr)
+      : context_(main_file, options), limits_(options.limits), files_(files) {}
 
-  void add(const std::filesystem::path& file) {
+  void add(const std::filesystem::path& file, Role role) {
     if (!seen_.insert(file.lexically_normal()).second) return;
-    const std::string bytes = read_text_file(file);
+    const std::string bytes = read_text_file(file, limits_.file_bytes);
     if (files_ != nullptr)
       files_->insert_or_assign(file, hash_text(bytes));
     else
       hasher_.text(bytes);
-    add_named(nlohmann::ordered_json::parse(json_of(bytes), nullptr, false), file.parent_path());
+    if (role == Role::data) return;
+    const std::string_view text = json_of(bytes);
+    require_json_within(text, limits_, file.string());
+    add_named(nlohmann::ordered_json::parse(text, nullptr, false), file.parent_path(), role);
   }
   [[nodiscard]] uint64_t value() const { return hasher_.value(); }
 
  private:
-  /// A string that is the path of a file is taken for the name of one, but for the schema, which editors read.
-  void add_named(const nlohmann::ordered_json& node, const std::filesystem::path& folder) {
-    if (node.is_structured())
-      for (const auto& [key, child] : node.items())
-        if (key != "$schema") add_named(child, folder);
-    if (!node.is_string()) return;
-    const auto& text = node.get_ref<const std::string&>();
-    if (text.empty() || text.size() > kLongestPath) return;
-    for (const std::string& name : {text, percent_decoded(text)}) {
-      std::error_code ignored;
-      if (!std::filesystem::is_regular_file(folder / name, ignored)) continue;
-      add(folder / name);
-      return;
+  /// Files that the loader would read under these keys, and no others: any string may happen to be a path.
+  void add_named(const nlohmann::ordered_json& node, const std::filesystem::path& folder, Role role) {
+    if (!node.is_structured()) return;
+    for (const auto& [key, child] : node.items()) {
+      const bool scene_file = role == Role::scene_file;
+      const bool names_file = scene_file ? key == "gltf" || key == "image" : key == "uri";
+      if (names_file && child.is_string()) {
+        const auto& name = child.get_ref<const std::string&>();
+        add_file(scene_file ? folder / name : resolved(folder, name), key == "gltf" ? Role::gltf : Role::data);
+      } else {
+        add_named(child, folder, role);
+      }
     }
   }
 
+  void add_file(const std::filesystem::path& file, Role role) {
+    std::error_code ignored;
+    if (!file.empty() && std::filesystem::is_regular_file(file, ignored)) add(file, role);
+  }
+
+  /// Empty for data URIs and for what the loader refuses to read, if it ever comes to read it.
+  [[nodiscard]] std::filesystem::path resolved(const std::filesystem::path& folder, const std::string& uri) const {
+    try {
+      return is_data_uri(uri) ? std::filesystem::path() : context_.resolve(folder, uri, "");
+    } catch (const Error&) {
+      return {};
+    }
+  }
+
+  InputContext context_;
+  Limits limits_;
   FileContents* files_;
   Hasher hasher_;
   std::set<std::filesystem::path> seen_;
 };
 
+Role role_of(const std::filesystem::path& scene_file) {
+  return scene_file.extension() == ".json" ? Role::scene_file : Role::gltf;
+}
+
 }  // namespace
 
-uint64_t content_hash(const std::filesystem::path& scene_file) {
-  ContentHasher hasher;
-  hasher.add(scene_file);
+uint64_t content_hash(const std::filesystem::path& scene_file, const LoadOptions& options) {
+  ContentHasher hasher(scene_file, options);
+  hasher.add(scene_file, role_of(scene_file));
   return hasher.value();
 }
 
-FileContents content_files(const std::filesystem::path& scene_file) {
+FileContents content_files(const std::filesystem::path& scene_file, const LoadOptions& options) {
   FileContents files{{scene_file, std::nullopt}};
   try {
-    ContentHasher(&files).add(scene_file);
+    ContentHasher(scene_file, options, &files).add(scene_file, role_of(scene_file));
   } catch (const Error&) {
     // What cannot be read is there as empty, or not at all.
   }

@@ -1,13 +1,14 @@
 #pragma once
 
+#include "framework/base/limits.hpp"
 #include "framework/scene/source.hpp"
 
 namespace lightloom::scene {
 
 /// Bounds of the static geometry and of all poses: each clip is sampled at 30 Hz or finer and at its keys, and the
 /// bounds of what moves are padded by 2 % for what lies between. A flat scene gets a thickness. Throws Error if
-/// something moves farther than 1e15 m from the origin.
-[[nodiscard]] Bounds find_bounds(const Scene& scene);
+/// something moves farther than 1e15 m from the origin, or looking would pose more than Limits::posed_elements.
+[[nodiscard]] Bounds find_bounds(const Scene& scene, const Limits& limits = {});
 
 /// Scans materials, triangles and lights.
 [[nodiscard]] Features find_features(const Scene& scene);

@@ -8,6 +8,7 @@
 #include "framework/scene/fail.hpp"
 #include "framework/scene/gltf_materials.hpp"
 #include "framework/scene/images.hpp"
+#include "framework/scene/input_context.hpp"
 
 namespace lightloom::scene {
 namespace {
@@ -28,6 +29,23 @@ void warn_missing_texcoords(GltfAsset& asset, const tinygltf::Primitive& source,
       asset.warnings.push_back(asset.file.name + ": " + path + " has no " + name +
                                ", which its material reads; (0, 0) is used");
       return;
+    }
+  }
+}
+
+/// Vertices and triangles of all primitives, as the accessors claim them; nothing is read yet.
+void require_geometry_within(const GltfAsset& asset, const AccessorReader& reader, const Limits& limits) {
+  uint64_t vertices = 0, triangles = 0;
+  for (size_t m = 0; m < asset.file.model.meshes.size(); ++m) {
+    for (const tinygltf::Primitive& primitive : asset.file.model.meshes[m].primitives) {
+      const auto position = primitive.attributes.find("POSITION");
+      if (position == primitive.attributes.end() || primitive.mode < TINYGLTF_MODE_TRIANGLES) continue;
+      const size_t corners = reader.count(primitive.indices >= 0 ? primitive.indices : position->second);
+      vertices += reader.count(position->second);
+      triangles += primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners;
+      const std::string name = asset.file.name + ": with meshes[" + std::to_string(m) + "] the file";
+      require_within(limits, &Limits::vertices, name, vertices);
+      require_within(limits, &Limits::triangles, name, triangles);
     }
   }
 }
@@ -103,24 +121,30 @@ void load_used_images(GltfAsset& asset) {
 
 }  // namespace
 
-GltfAsset load_asset(const std::filesystem::path& path) {
+GltfAsset load_asset(const std::filesystem::path& path, InputContext& context) {
   GltfAsset asset;
-  asset.file = read_gltf_file(path);
+  asset.file = read_gltf_file(path, context);
   asset.warnings = asset.file.warnings;
   const AccessorReader reader(asset.file);
-  asset.order = order_nodes(asset.file);
+  asset.order = order_nodes(asset.file, context.limits());
   const std::vector<size_t> targets = count_morph_targets(asset.file);
   asset.materials = load_materials(asset.file, asset.warnings);
+  require_geometry_within(asset, reader, context.limits());
   load_meshes(asset, reader);
   for (size_t i = 0; i < asset.file.model.skins.size(); ++i)
     asset.skins.push_back(load_skin(asset.file, reader, static_cast<int>(i)));
+  uint64_t weights = 0;
   for (size_t i = 0; i < asset.file.model.nodes.size(); ++i) {
+    const int mesh = asset.file.model.nodes[i].mesh;
+    weights += mesh < 0 ? 0 : targets[static_cast<size_t>(mesh)];
+    require_within(context.limits(), &Limits::morph_weights,
+                   asset.file.name + ": with nodes[" + std::to_string(i) + "] the file", weights);
     asset.nodes.push_back(load_node(asset.file, static_cast<int>(i)));
     asset.nodes.back().weights = rest_weights(asset, i, targets);
     check_skinned_node(asset, i);
   }
   for (size_t i = 0; i < asset.file.model.animations.size(); ++i)
-    asset.animations.push_back(load_animation(asset.file, reader, static_cast<int>(i)));
+    asset.animations.push_back(load_animation(asset.file, reader, targets, static_cast<int>(i)));
   load_used_images(asset);
   return asset;
 }

@@ -25,7 +25,7 @@ struct GltfAsset {
 };
 
 /// Loads all of a file. Throws Error.
-[[nodiscard]] GltfAsset load_asset(const std::filesystem::path& path);
+[[nodiscard]] GltfAsset load_asset(const std::filesystem::path& path, InputContext& context);
 
 /// Cameras and lights of a file, by its camera and light index; `node` stays -1.
 [[nodiscard]] Camera load_camera(const GltfFile& file, int index);

@@ -1,7 +1,6 @@
 #include "framework/scene/gltf_file.hpp"
 
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -10,6 +9,10 @@
 
 #include "framework/scene/fail.hpp"
 #include "framework/scene/gltf_schema.hpp"
+#include "framework/scene/gltf_structure.hpp"
+#include "framework/scene/gltf_uri.hpp"
+#include "framework/scene/input_context.hpp"
+#include "framework/scene/json_scan.hpp"
 
 namespace lightloom::scene {
 namespace {
@@ -31,36 +34,58 @@ uint32_t read_u32(std::span<const uint8_t> bytes, size_t offset) {
          static_cast<uint32_t>(bytes[offset + 2]) << 16 | static_cast<uint32_t>(bytes[offset + 3]) << 24;
 }
 
-Container split_glb(std::span<const uint8_t> bytes, const std::string& file) {
-  if (bytes.size() < 20)
+uint32_t check_glb_header(std::span<const uint8_t> bytes, const std::string& file) {
+  constexpr size_t kHeader = 12, kChunkHeader = 8;
+  if (bytes.size() < kHeader)
     fail(file, "the GLB header", "ends after " + std::to_string(bytes.size()) + " bytes, expected at least 20");
-  if (read_u32(bytes, 4) != 2) {
+  if (read_u32(bytes, 4) != 2)
     fail(file, "the GLB header", "says version " + std::to_string(read_u32(bytes, 4)) + ", expected 2");
-  }
-  const size_t length = read_u32(bytes, 8);
+  const uint32_t length = read_u32(bytes, 8);
   if (length > bytes.size()) {
     fail(file, "the GLB header",
          "says " + std::to_string(length) + " bytes, but the file has " + std::to_string(bytes.size()),
          "the file may be truncated");
   }
+  if (length < kHeader + kChunkHeader)
+    fail(file, "the GLB header",
+         "says " + std::to_string(length) + " bytes, and ends after " + std::to_string(bytes.size()) +
+             " bytes, expected at least 20");
+  return length;
+}
+
+void take_chunk(std::span<const uint8_t> content, uint32_t type, size_t chunk, const std::string& file,
+                Container& container) {
+  const std::string name = "GLB chunk " + std::to_string(chunk);
+  if (chunk == 0 && type != kGlbJsonChunk) fail(file, name, "is not JSON, expected the JSON chunk first");
+  if (chunk == 0 && content.empty()) fail(file, name, "is empty, expected JSON");
+  if (content.size() % 4 != 0)
+    fail(file, name, "has " + std::to_string(content.size()) + " bytes, expected a multiple of 4");
+  if (chunk == 0) {
+    container.json_text.assign(content.begin(), content.end());
+  } else if (type == kGlbJsonChunk || (type == kGlbBinaryChunk && container.has_binary)) {
+    fail(file, name, "is a second one of its type, expected one JSON and at most one BIN chunk");
+  } else if (type == kGlbBinaryChunk && chunk != 1) {
+    fail(file, name, "is the BIN chunk, expected it right behind the JSON chunk");
+  } else if (type == kGlbBinaryChunk) {
+    container.binary.assign(content.begin(), content.end());
+    container.has_binary = true;
+  }
+}
+
+Container split_glb(std::span<const uint8_t> bytes, const std::string& file) {
+  const size_t length = check_glb_header(bytes, file);
   Container container;
   size_t offset = 12;
-  for (size_t chunk = 0; offset + 8 <= length; ++chunk) {
+  for (size_t chunk = 0; offset < length; ++chunk) {
+    const std::string name = "GLB chunk " + std::to_string(chunk);
+    if (length - offset < 8) fail(file, name, "ends within its header of 8 bytes", "the file may be truncated");
     const size_t size = read_u32(bytes, offset);
     const uint32_t type = read_u32(bytes, offset + 4);
     offset += 8;
     if (size > length - offset) {
-      fail(file, "GLB chunk " + std::to_string(chunk),
-           "says " + std::to_string(size) + " bytes, but " + std::to_string(length - offset) + " are left");
+      fail(file, name, "says " + std::to_string(size) + " bytes, but " + std::to_string(length - offset) + " are left");
     }
-    const auto content = bytes.subspan(offset, size);
-    if (chunk == 0) {
-      if (type != kGlbJsonChunk) fail(file, "GLB chunk 0", "is not JSON, expected the JSON chunk first");
-      container.json_text.assign(content.begin(), content.end());
-    } else if (chunk == 1 && type == kGlbBinaryChunk) {
-      container.binary.assign(content.begin(), content.end());
-      container.has_binary = true;
-    }
+    take_chunk(bytes.subspan(offset, size), type, chunk, file, container);
     offset += size;
   }
   return container;
@@ -69,83 +94,14 @@ Container split_glb(std::span<const uint8_t> bytes, const std::string& file) {
 Container split(std::vector<uint8_t> bytes, const std::string& file) {
   if (bytes.empty()) fail(file, "the file", "is empty, expected glTF");
   if (bytes.size() >= 4 && read_u32(bytes, 0) == kGlbMagic) return split_glb(bytes, file);
+  if (bytes[0] < '\t') fail(file, "the file", "begins neither with 'glTF' nor as JSON, expected glTF");
   Container container;
   container.json_text.assign(bytes.begin(), bytes.end());
   return container;
 }
 
-bool is_data_uri(const std::string& uri) {
-  return uri.rfind("data:", 0) == 0;
-}
-
-int base64_digit(char c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (c >= '0' && c <= '9') return c - '0' + 52;
-  return c == '+' ? 62 : c == '/' ? 63 : -1;
-}
-
-std::vector<uint8_t> decode_base64(std::string_view text, const std::string& file, const std::string& element) {
-  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  std::vector<uint8_t> bytes;
-  bytes.reserve(text.size() / 4 * 3 + 3);
-  uint32_t bits = 0, count = 0;
-  for (const char c : text) {
-    const int digit = base64_digit(c);
-    if (digit < 0) fail(file, element, "holds a character that is not base64, expected A-Z, a-z, 0-9, + and /");
-    bits = bits << 6 | static_cast<uint32_t>(digit);
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes.push_back(static_cast<uint8_t>(bits >> count & 0xFFu));
-  }
-  return bytes;
-}
-
-std::vector<uint8_t> decode_data_uri(const std::string& uri, const std::string& file, const std::string& element) {
-  const size_t comma = uri.find(',');
-  const std::string header = uri.substr(0, comma);
-  if (comma == std::string::npos || header.find(";base64") == std::string::npos) {
-    fail(file, element, "is a data URI without base64 content, expected data:TYPE;base64,CONTENT");
-  }
-  return decode_base64(std::string_view(uri).substr(comma + 1), file, element);
-}
-
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-std::string percent_decode(const std::string& uri) {
-  std::string decoded;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] == '%' && i + 2 < uri.size() && hex_digit(uri[i + 1]) >= 0 && hex_digit(uri[i + 2]) >= 0) {
-      decoded += static_cast<char>(hex_digit(uri[i + 1]) * 16 + hex_digit(uri[i + 2]));
-      i += 2;
-    } else {
-      decoded += uri[i];
-    }
-  }
-  return decoded;
-}
-
-std::vector<uint8_t> read_uri(const GltfFile& file, const std::string& uri, const std::string& element) {
-  if (is_data_uri(uri)) return decode_data_uri(uri, file.name, element);
-  if (uri.find("://") != std::string::npos) {
-    fail(file.name, element, "is '" + uri + "', expected a path relative to the file or a data URI");
-  }
-  const std::filesystem::path folder = file.path.parent_path();
-  // Exporters disagree on whether spaces and signs are percent-encoded; a file of the literal name wins.
-  std::error_code error;
-  const std::filesystem::path literal = folder / uri;
-  const bool literal_exists = uri.size() < 4096 && std::filesystem::is_regular_file(literal, error);
-  return read_bytes(literal_exists ? literal : folder / percent_decode(uri), file.name + ": " + element);
-}
-
-json parse_json(const std::string& text, const std::string& file) {
-  check_json_depth(text, file);
+json parse_json(const std::string& text, const Limits& limits, const std::string& file) {
+  require_json_within(text, limits, file);
   try {
     return json::parse(text);
   } catch (const json::exception& error) {
@@ -185,19 +141,20 @@ void check_extensions(const json& document, GltfFile& file) {
 }
 
 void read_buffers(const json& document, Container container, GltfFile& file) {
-  const json buffers = document.value("buffers", json::array());
+  static const json none = json::array();
+  const json& buffers = document.contains("buffers") ? document["buffers"] : none;
   file.model.buffers.resize(buffers.size());
   for (size_t i = 0; i < buffers.size(); ++i) {
     const std::string element = "buffers[" + std::to_string(i) + "]";
+    const auto length = static_cast<uint64_t>(buffers[i]["byteLength"].get<double>());
     std::vector<uint8_t>& data = file.model.buffers[i].data;
     if (buffers[i].contains("uri")) {
-      data = read_uri(file, buffers[i]["uri"].get<std::string>(), element + ".uri");
+      data = read_uri(file, buffers[i]["uri"].get_ref<const std::string&>(), element + ".uri", length);
     } else if (i == 0 && container.has_binary) {
       data = std::move(container.binary);
     } else {
       fail(file.name, element + ".uri", "is missing, expected one, as there is no GLB binary chunk for it");
     }
-    const auto length = static_cast<uint64_t>(buffers[i]["byteLength"].get<double>());
     if (data.size() < length) {
       fail(file.name, element,
            "has " + std::to_string(data.size()) + " bytes, expected byteLength " + std::to_string(length),
@@ -240,32 +197,18 @@ void parse_model(json document, GltfFile& file) {
 
 }  // namespace
 
-std::vector<uint8_t> read_bytes(const std::filesystem::path& path, const std::string& wanted_by) {
-  std::error_code error;
-  const std::string prefix = wanted_by.empty() ? "" : wanted_by + ": ";
-  if (!std::filesystem::exists(path, error)) {
-    throw Error(ExitCode::invalid_input, prefix + "the file " + path.string() + " does not exist");
-  }
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw Error(ExitCode::invalid_input, prefix + path.string() + " is not a regular file");
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::vector<uint8_t> bytes(static_cast<size_t>(std::filesystem::file_size(path, error)));
-  if (!stream || error ||
-      !stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
-    throw Error(ExitCode::invalid_input, prefix + "the file " + path.string() + " cannot be read");
-  }
-  return bytes;
-}
-
-GltfFile read_gltf_file(const std::filesystem::path& path) {
+GltfFile read_gltf_file(const std::filesystem::path& path, InputContext& context) {
   GltfFile file;
   file.path = path;
   file.name = path.string();
-  Container container = split(read_bytes(path, ""), file.name);
-  json document = parse_json(container.json_text, file.name);
+  file.context = &context;
+  context.begin_asset();
+  Container container = split(context.read(path, ""), file.name);
+  json document = parse_json(container.json_text, context.limits(), file.name);
+  container.json_text = {};
   normalise_numbers(document);
-  check_gltf_json(document, file.name);
+  check_gltf_json(document, context.limits(), file.name);
+  check_gltf_structure(document, file.name);
   check_version(document, file.name);
   check_extensions(document, file);
   read_buffers(document, std::move(container), file);
@@ -285,6 +228,7 @@ std::vector<uint8_t> read_encoded_image(const GltfFile& file, const EncodedImage
     fail(file.name, "bufferViews[" + std::to_string(image.buffer_view) + "]",
          "reaches past the end of its buffer of " + std::to_string(data.size()) + " bytes");
   }
+  file.context->spend_bytes(view.byteLength, file.name + ": " + image.name);
   const auto begin = data.begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
   return {begin, begin + static_cast<std::ptrdiff_t>(view.byteLength)};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "framework/scene/fail.hpp"
 
@@ -48,9 +49,9 @@ std::vector<int> drawn_roots(const GltfFile& file, const std::vector<int>& roots
 }
 
 void check_scenes(const GltfFile& file, const std::vector<int>& parents) {
+  std::vector<size_t> listed_by(parents.size(), 0);  // one more than the scene; a mark for each would be quadratic
   for (size_t s = 0; s < file.model.scenes.size(); ++s) {
     const std::vector<int>& nodes = file.model.scenes[s].nodes;
-    std::vector<bool> listed(parents.size(), false);
     for (const int node : nodes) {
       const std::string path = "scenes[" + std::to_string(s) + "].nodes";
       if (parents[static_cast<size_t>(node)] >= 0) {
@@ -58,11 +59,24 @@ void check_scenes(const GltfFile& file, const std::vector<int>& parents) {
              "lists node " + std::to_string(node) + ", a child of node " +
                  std::to_string(parents[static_cast<size_t>(node)]) + ", expected root nodes");
       }
-      if (listed[static_cast<size_t>(node)])
+      if (listed_by[static_cast<size_t>(node)] == s + 1)
         fail(file.name, path, "lists node " + std::to_string(node) + " twice, expected each node once");
-      listed[static_cast<size_t>(node)] = true;
+      listed_by[static_cast<size_t>(node)] = s + 1;
     }
   }
+}
+
+void require_depth_within(const GltfFile& file, const NodeOrder& nodes, const Limits& limits) {
+  std::vector<uint64_t> depths(nodes.parents.size(), 1);
+  for (const int node : nodes.order) {
+    const int parent = nodes.parents[static_cast<size_t>(node)];
+    if (parent >= 0) depths[static_cast<size_t>(node)] = depths[static_cast<size_t>(parent)] + 1;
+  }
+  const auto deepest = std::max_element(depths.begin(), depths.end());
+  if (deepest == depths.end()) return;
+  require_within(limits, &Limits::node_depth,
+                 file.name + ": " + node_path(static_cast<int>(deepest - depths.begin())) + " with its ancestors",
+                 *deepest);
 }
 
 glm::vec3 vec3_of(const std::vector<double>& values) {
@@ -133,7 +147,7 @@ Track load_track(const GltfFile& file, const AccessorReader& reader, const tinyg
 
 }  // namespace
 
-NodeOrder order_nodes(const GltfFile& file) {
+NodeOrder order_nodes(const GltfFile& file, const Limits& limits) {
   NodeOrder result;
   result.parents = find_parents(file);
   std::vector<int> roots;
@@ -148,6 +162,7 @@ NodeOrder order_nodes(const GltfFile& file) {
     fail(file.name, node_path(static_cast<int>(lost)),
          "is its own descendant or hangs below a node that is, expected a tree of nodes");
   }
+  require_depth_within(file, result, limits);
   check_scenes(file, result.parents);
   result.drawn = depth_first(file, drawn_roots(file, roots));
   return result;
@@ -217,12 +232,12 @@ std::vector<size_t> count_morph_targets(const GltfFile& file) {
   return counts;
 }
 
-Clip load_animation(const GltfFile& file, const AccessorReader& reader, int index) {
+Clip load_animation(const GltfFile& file, const AccessorReader& reader, const std::vector<size_t>& morph_targets,
+                    int index) {
   const tinygltf::Animation& source = file.model.animations[static_cast<size_t>(index)];
-  const std::vector<size_t> morph_targets = count_morph_targets(file);
   const std::string path = "animations[" + std::to_string(index) + "]";
   Clip clip;
-  std::vector<std::pair<int, TrackPath>> targets;
+  std::set<std::pair<int, TrackPath>> targets;
   for (size_t c = 0; c < source.channels.size(); ++c) {
     const tinygltf::AnimationChannel& channel = source.channels[c];
     const std::string channel_path = path + ".channels[" + std::to_string(c) + "]";
@@ -246,10 +261,9 @@ Clip load_animation(const GltfFile& file, const AccessorReader& reader, int inde
     const std::string sampler_path = path + ".samplers[" + std::to_string(channel.sampler) + "]";
     Track track = load_track(file, reader, source.samplers[static_cast<size_t>(channel.sampler)], channel,
                              targets_of_node, sampler_path);
-    if (std::find(targets.begin(), targets.end(), std::pair(track.node, track.path)) != targets.end()) {
+    if (!targets.emplace(track.node, track.path).second) {
       fail(file.name, channel_path + ".target", "is animated by an earlier channel, expected each property once");
     }
-    targets.emplace_back(track.node, track.path);
     clip.duration = std::max(clip.duration, static_cast<double>(track.times.back()));
     clip.tracks.push_back(std::move(track));
   }

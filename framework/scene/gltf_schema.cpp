@@ -220,7 +220,8 @@ const ObjectType& document_type() {
 
 class Checker {
  public:
-  Checker(const json& document, const std::string& file) : document_(document), file_(file) {}
+  Checker(const json& document, const Limits& limits, const std::string& file)
+      : document_(document), limits_(limits), file_(file) {}
 
   void check_object(const json& value, const ObjectType& type, const std::string& path) const {
     if (!value.is_object()) refuse(path, value, "an object");
@@ -243,6 +244,8 @@ class Checker {
         return;
       case Kind::string:
         if (!value.is_string()) refuse(path, value, "a string");
+        if (field.name == "name")
+          require_within(limits_, &Limits::name_bytes, file_ + ": " + path, value.get_ref<const std::string&>().size());
         return;
       case Kind::choice:
         return check_choice(value, field, path);
@@ -337,12 +340,13 @@ class Checker {
   }
 
   const json& document_;
+  const Limits& limits_;
   const std::string& file_;
 };
 
 }  // namespace
 
-void check_gltf_json(const nlohmann::json& document, const std::string& file) {
+void check_gltf_json(const nlohmann::json& document, const Limits& limits, const std::string& file) {
   // Arrays first: an index into something that is no array is best explained by that.
   for (const Field& field : document_type().fields) {
     const bool wrong = field.kind == Kind::objects && document.is_object() &&
@@ -351,7 +355,7 @@ void check_gltf_json(const nlohmann::json& document, const std::string& file) {
       fail(file, std::string(field.name),
            "is " + std::string(document[std::string(field.name)].type_name()) + ", expected an array");
   }
-  Checker(document, file).check_object(document, document_type(), "");
+  Checker(document, limits, file).check_object(document, document_type(), "");
 }
 
 void normalise_numbers(nlohmann::json& document, bool in_extension) {
@@ -364,27 +368,6 @@ void normalise_numbers(nlohmann::json& document, bool in_extension) {
     for (auto& [key, value] : document.items()) normalise_numbers(value, in_extension || key == "extensions");
   } else if (document.is_array()) {
     for (nlohmann::json& value : document) normalise_numbers(value, in_extension);
-  }
-}
-
-void check_json_depth(const std::string& text, const std::string& file) {
-  constexpr int kMaxDepth = 200;
-  int depth = 0;
-  bool in_string = false;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > kMaxDepth) {
-        fail(file, "the JSON", "nests deeper than " + std::to_string(kMaxDepth) + " levels, expected fewer");
-      }
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
   }
 }
 

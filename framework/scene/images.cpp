@@ -7,66 +7,44 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <thread>
 
+#include "framework/base/image_header.hpp"
 #include "framework/base/interrupt.hpp"
 #include "framework/scene/fail.hpp"
+#include "framework/scene/input_context.hpp"
 
 namespace lightloom::scene {
 namespace {
 
-constexpr int64_t kMaxTexels = int64_t{1} << 26;
-
-std::string format_of(const std::vector<uint8_t>& bytes) {
-  const auto starts_with = [&](std::initializer_list<uint8_t> magic) {
-    return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
-  };
-  if (starts_with({0x89, 'P', 'N', 'G'})) return "png";
-  if (starts_with({0xFF, 0xD8, 0xFF})) return "jpeg";
-  return "";
-}
-
-uint32_t big_endian(const std::vector<uint8_t>& bytes, size_t offset, size_t size) {
-  uint32_t value = 0;
-  for (size_t k = 0; k < size; ++k) value = value << 8 | bytes[offset + k];
-  return value;
-}
-
-// Whether all chunks of a PNG lie within the file; libpng would print about those that do not.
-bool is_whole_png(const std::vector<uint8_t>& bytes) {
-  constexpr uint32_t kEnd = 0x49454E44u;  // "IEND"
-  size_t offset = 8;
-  while (offset + 12 <= bytes.size()) {
-    const size_t length = big_endian(bytes, offset, 4);
-    if (length > bytes.size() - offset - 12) return false;
-    if (big_endian(bytes, offset + 4, 4) == kEnd) return true;
-    offset += 12 + length;
-  }
-  return false;
-}
-
-// Whether a JPEG reaches its end marker; libjpeg fills what is missing with grey and says nothing.
-bool is_whole_jpeg(const std::vector<uint8_t>& bytes) {
-  size_t offset = 2;
-  while (offset + 2 <= bytes.size()) {
-    const uint8_t marker = bytes[offset + 1];
-    const bool in_scan = bytes[offset] != 0xFF || marker == 0x00 || marker == 0xFF;
-    if (in_scan) {
-      ++offset;
-    } else if (marker == 0xD9) {
-      return true;
-    } else if (marker >= 0xD0 && marker <= 0xD8) {
-      offset += 2;
-    } else {
-      if (offset + 4 > bytes.size()) return false;
-      offset += 2 + big_endian(bytes, offset + 2, 2);
-    }
-  }
-  return false;
-}
-
 std::string reason_of(const std::string& error) {
   return error.empty() ? "unknown reason" : error.substr(0, error.find('\n'));
+}
+
+const char* oiio_name(ImageFileFormat format) {
+  switch (format) {
+    case ImageFileFormat::png:
+      return "png";
+    case ImageFileFormat::jpeg:
+      return "jpeg";
+    case ImageFileFormat::hdr:
+      return "hdr";
+    default:
+      return "openexr";
+  }
+}
+
+/// A decoder that reads another size out of the file than we did would be given too little memory, or too much.
+void require_as_in_header(const OIIO::ImageSpec& spec, const ImageHeader& header, const std::string& name) {
+  const bool same = spec.width >= 1 && spec.height >= 1 && spec.nchannels >= 1 &&
+                    static_cast<uint64_t>(spec.width) <= header.width &&
+                    static_cast<uint64_t>(spec.height) <= header.height;
+  if (same) return;
+  throw Error(ExitCode::invalid_input, name + " is " + std::to_string(header.width) + " x " +
+                                           std::to_string(header.height) + " by its header and " +
+                                           std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                                           " by its decoder, expected one size");
 }
 
 // Grey images hold grey or grey and alpha; glTF treats both as colour with equal channels.
@@ -106,12 +84,24 @@ void run_parallel(size_t count, const std::function<void(size_t)>& task) {
   }
 }
 
-Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, const std::string& name) {
-  const std::string format = format_of(bytes);
-  if (format.empty()) fail(file, name, "is not a PNG or JPEG image, expected one of these");
-  if (!(format == "png" ? is_whole_png(bytes) : is_whole_jpeg(bytes))) {
+ImageHeader check_texture(const std::vector<uint8_t>& bytes, const std::string& file, const std::string& name,
+                          const Limits& limits) {
+  const ImageFileFormat format = image_file_format(bytes);
+  if (format != ImageFileFormat::png && format != ImageFileFormat::jpeg)
+    fail(file, name, "is not a PNG or JPEG image, expected one of these");
+  std::string problem;
+  const std::optional<ImageHeader> header = read_image_header(bytes, problem);
+  if (!header) fail(file, name, problem, "the image may be truncated");
+  require_image_within(*header, limits, &Limits::image_texels, file + ": " + name);
+  if (!header->whole)
     fail(file, name, "ends in the middle of its data, expected a whole image", "the image may be truncated");
-  }
+  return *header;
+}
+
+Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, const std::string& name,
+                   const Limits& limits) {
+  const ImageHeader header = check_texture(bytes, file, name, limits);
+  const std::string format = header.format == ImageFileFormat::png ? "png" : "jpeg";
   OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
@@ -121,11 +111,7 @@ Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, c
   if (!input->set_ioproxy(&reader) || !input->open(format, spec, config)) {
     fail(file, name, "cannot be decoded: " + reason_of(input->geterror()), "the image may be truncated");
   }
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || int64_t{spec.width} * spec.height > kMaxTexels) {
-    fail(file, name,
-         "is " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " texels, expected at most " +
-             std::to_string(kMaxTexels) + " in all");
-  }
+  require_as_in_header(spec, header, file + ": " + name);
   Image image;
   image.name = name;
   image.width = static_cast<uint32_t>(spec.width);
@@ -146,40 +132,50 @@ Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, c
 }
 
 std::vector<Image> load_images(const GltfFile& file, const std::vector<int>& indices) {
+  std::vector<std::vector<uint8_t>> encoded(indices.size());
+  for (size_t i = 0; i < indices.size(); ++i) {
+    const EncodedImage& source = file.images[static_cast<size_t>(indices[i])];
+    encoded[i] = read_encoded_image(file, source);
+    const ImageHeader header = check_texture(encoded[i], file.name, source.name, file.context->limits());
+    file.context->spend_image(header.width * header.height, file.name + ": " + source.name);
+  }
   std::vector<Image> images(indices.size());
   run_parallel(indices.size(), [&](size_t i) {
     stop_if_interrupted();
-    const EncodedImage& encoded = file.images[static_cast<size_t>(indices[i])];
-    images[i] = decode_image(read_encoded_image(file, encoded), file.name, encoded.name);
+    const std::string& name = file.images[static_cast<size_t>(indices[i])].name;
+    images[i] = decode_image(encoded[i], file.name, name, file.context->limits());
+    encoded[i] = {};
   });
   return images;
 }
 
-void load_environment(const std::filesystem::path& path, const std::string& wanted_by, Environment& environment) {
-  if (!std::filesystem::is_regular_file(path)) {
-    throw Error(ExitCode::invalid_input, wanted_by + ": the file " + path.string() + " does not exist");
-  }
-  const auto input = OIIO::ImageInput::open(path.string());
-  if (!input)
+void load_environment(const std::filesystem::path& path, const std::string& wanted_by, Environment& environment,
+                      const LoadOptions& options) {
+  const std::vector<uint8_t> bytes = InputContext(path, options).read(path, wanted_by);
+  const std::string name = wanted_by + ": " + path.string();
+  std::string problem;
+  const std::optional<ImageHeader> header = read_image_header(bytes, problem);
+  if (!header) throw Error(ExitCode::invalid_input, name + " " + problem);
+  require_image_within(*header, options.limits, &Limits::float_texels, name);
+  // By the content, whatever the file is called: OpenImageIO would try every format it knows.
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(oiio_name(header->format));
+  OIIO::ImageSpec spec;
+  if (!input || !input->open(path.string(), spec, OIIO::ImageSpec())) {
     throw Error(ExitCode::invalid_input,
-                wanted_by + ": " + path.string() + " cannot be decoded: " + reason_of(OIIO::geterror()));
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 3 || int64_t{spec.width} * spec.height > kMaxTexels) {
-    throw Error(ExitCode::invalid_input, wanted_by + ": " + path.string() + " is not an RGB image of at most " +
-                                             std::to_string(kMaxTexels) + " texels");
+                name + " cannot be decoded: " + reason_of(input ? input->geterror() : OIIO::geterror()));
   }
+  if (spec.nchannels < 3 || spec.depth > 1 || spec.deep)
+    throw Error(ExitCode::invalid_input, name + " is not a flat RGB image, expected one");
+  require_as_in_header(spec, *header, name);
   environment.width = static_cast<uint32_t>(spec.width);
   environment.height = static_cast<uint32_t>(spec.height);
   environment.rgb.resize(size_t{environment.width} * environment.height * 3);
-  if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, environment.rgb.data())) {
-    throw Error(ExitCode::invalid_input,
-                wanted_by + ": " + path.string() + " cannot be decoded: " + reason_of(input->geterror()));
-  }
+  if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, environment.rgb.data()))
+    throw Error(ExitCode::invalid_input, name + " cannot be decoded: " + reason_of(input->geterror()));
   for (const float value : environment.rgb) {
     if (!std::isfinite(value) || value < 0) {
       throw Error(ExitCode::invalid_input,
-                  wanted_by + ": " + path.string() +
-                      " holds a negative or infinite radiance, expected finite values of at least 0");
+                  name + " holds a negative or infinite radiance, expected finite values of at least 0");
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/scene/gltf_file.hpp"
+#include "framework/scene/load_options.hpp"
 #include "framework/scene/scene.hpp"
 
 namespace lightloom::scene {
@@ -13,13 +14,17 @@ namespace lightloom::scene {
 void run_parallel(size_t count, const std::function<void(size_t)>& task);
 
 /// Decodes PNG or JPEG to RGBA8: 16-bit samples are rounded, grey is spread, missing alpha is 255, alpha is not
-/// premultiplied. Throws Error naming `file` and `name`.
-[[nodiscard]] Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, const std::string& name);
+/// premultiplied. Throws Error naming `file` and `name`; nothing is allocated for an image beyond the limits.
+[[nodiscard]] Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, const std::string& name,
+                                 const Limits& limits = {});
 
-/// Decodes the listed images of a file, in parallel. Throws Error for the first that is missing or broken.
+/// Decodes the listed images of a file, in parallel. Throws Error for the first that is missing or broken; nothing is
+/// decoded unless all of them together are within the limits.
 [[nodiscard]] std::vector<Image> load_images(const GltfFile& file, const std::vector<int>& indices);
 
-/// Equirectangular environment image, as linear floats. Throws Error.
-void load_environment(const std::filesystem::path& path, const std::string& wanted_by, Environment& environment);
+/// Equirectangular environment image (Radiance HDR, OpenEXR, PNG or JPEG by its content), as linear floats. Throws
+/// Error.
+void load_environment(const std::filesystem::path& path, const std::string& wanted_by, Environment& environment,
+                      const LoadOptions& options = {});
 
 }  // namespace lightloom::scene

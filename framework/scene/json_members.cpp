@@ -8,6 +8,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
 #include "framework/base/text.hpp"
+#include "framework/scene/json_scan.hpp"
 
 namespace lightloom::scene {
 namespace {
@@ -31,9 +32,14 @@ std::string place_of(const JsonNode& node) {
   return node.where.file + ":" + std::to_string(node.where.line) + ":" + std::to_string(node.where.column);
 }
 
-JsonNode parse_json_file(const std::filesystem::path& path) {
+JsonNode parse_json_file(const std::filesystem::path& path, const Limits& limits) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored))
+    require_within(limits, &Limits::json_bytes, path.string() + ": the file", std::filesystem::file_size(path));
+  const std::string content = read_text_file(path, std::max(limits.json_bytes, kMostTextBytes));
+  require_json_within(content, limits, path.string());
   Diagnostics diagnostics;
-  std::optional<JsonNode> root = parse_json(read_text_file(path), path.string(), diagnostics);
+  std::optional<JsonNode> root = parse_json(content, path.string(), diagnostics, limits.json_values);
   if (diagnostics.has_errors() || !root) {
     const Diagnostic first = diagnostics.sorted().front();
     refuse_json(first.where, first.message, first.hint);

@@ -7,6 +7,7 @@
 
 #include "framework/base/json.hpp"
 #include "framework/base/key_table.hpp"
+#include "framework/base/limits.hpp"
 
 namespace lightloom::scene {
 
@@ -16,8 +17,9 @@ namespace lightloom::scene {
 /// "FILE:LINE:COLUMN" of a value.
 [[nodiscard]] std::string place_of(const JsonNode& node);
 
-/// Reads and parses a file. Throws Error(invalid_input) with the place of the first mistake.
-[[nodiscard]] JsonNode parse_json_file(const std::filesystem::path& path);
+/// Reads and parses a file within json_bytes and json_values of `limits`. Throws Error(invalid_input) with the place of
+/// the first mistake.
+[[nodiscard]] JsonNode parse_json_file(const std::filesystem::path& path, const Limits& limits = {});
 
 /// A number that may be left out.
 struct NumberRange {

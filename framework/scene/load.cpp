@@ -3,15 +3,17 @@
 #include "framework/scene/assemble.hpp"
 #include "framework/scene/fail.hpp"
 #include "framework/scene/finish.hpp"
+#include "framework/scene/load_options.hpp"
 #include "framework/scene/origin.hpp"
+#include "framework/scene/texture_pages.hpp"
 
 namespace lightloom::scene {
 namespace {
 
-SceneFile describe_file(const std::filesystem::path& file) {
+SceneFile describe_file(const std::filesystem::path& file, const LoadOptions& options) {
   const std::string name = file.filename().string();
   const std::string extension = file.extension().string();
-  if (name.ends_with(".json")) return read_scene_file(file);
+  if (name.ends_with(".json")) return read_scene_file(file, options);
   if (extension != ".gltf" && extension != ".glb") {
     throw Error(ExitCode::invalid_input,
                 file.string() + ": the file name ends with '" + extension + "', expected .gltf, .glb or .scene.json");
@@ -40,12 +42,26 @@ bool needs_model_light(const Scene& scene, bool scene_file) {
   return scene.cameras.empty() || !has_light(scene.features);
 }
 
+/// A file with a hundred thousand elements can be wrong a hundred thousand times.
+void shorten_warnings(std::vector<std::string>& warnings) {
+  constexpr size_t kMost = 100;
+  if (warnings.size() <= kMost) return;
+  const size_t more = warnings.size() - kMost;
+  warnings.resize(kMost);
+  warnings.push_back("and " + std::to_string(more) + " more warnings about the scene");
+}
+
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& file) {
+  return load_scene(file, {});
+}
+
+Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
   const bool scene_file = file.extension() == ".json";
-  Scene scene = assemble(file, describe_file(file));
-  scene.bounds = find_bounds(scene);
+  Scene scene = assemble(file, describe_file(file, options), options);
+  require_texture_pages_within(scene, options.limits);
+  scene.bounds = find_bounds(scene, options.limits);
   scene.features = find_features(scene);
   if (needs_model_light(scene, scene_file)) {
     scene.environment.radiance = glm::vec3(kModelSky);
@@ -63,6 +79,7 @@ Scene load_scene(const std::filesystem::path& file) {
     scene.warnings.push_back(
         "the scene has no light: give it a sun or an environment in a scene file, or everything is black");
   }
+  shorten_warnings(scene.warnings);
   return scene;
 }
 

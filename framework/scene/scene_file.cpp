@@ -70,7 +70,7 @@ Sun read_sun(const JsonNode& node) {
   return sun;
 }
 
-Environment read_environment(const JsonNode& node, const std::filesystem::path& folder) {
+Environment read_environment(const JsonNode& node, const std::filesystem::path& folder, const LoadOptions& options) {
   JsonMembers members(node, "environment");
   Environment environment;
   const JsonNode* radiance = members.find("radiance");
@@ -88,7 +88,7 @@ Environment read_environment(const JsonNode& node, const std::filesystem::path& 
     environment.radiance = glm::vec3(scale ? static_cast<float>(members.number(
                                                  *scale, "scale", kEnvironmentScale.minimum, kEnvironmentScale.maximum))
                                            : 1.0f);
-    load_environment(folder / file, place_of(*image) + ": environment.image", environment);
+    load_environment(folder / file, place_of(*image) + ": environment.image", environment, options);
   }
   members.finish(kEnvironmentKeys);
   return environment;
@@ -106,8 +106,8 @@ glm::mat4 look_at_target(const CameraSpec& camera, const glm::dvec3& origin) {
   return matrix;
 }
 
-SceneFile read_scene_file(const std::filesystem::path& path) {
-  const JsonNode root = parse_json_file(path);
+SceneFile read_scene_file(const std::filesystem::path& path, const LoadOptions& options) {
+  const JsonNode root = parse_json_file(path, options.limits);
   const std::filesystem::path folder = path.parent_path();
   JsonMembers members(root, "the scene file", "");
   if (const JsonNode* schema = members.find("$schema")) members.typed(*schema, "$schema", JsonKind::string);
@@ -134,7 +134,7 @@ SceneFile read_scene_file(const std::filesystem::path& path) {
   }
   if (const JsonNode* sun = members.find("sun")) result.sun = read_sun(*sun);
   if (const JsonNode* environment = members.find("environment"))
-    result.environment = read_environment(*environment, folder);
+    result.environment = read_environment(*environment, folder, options);
   members.finish(kSceneKeys);
   return result;
 }

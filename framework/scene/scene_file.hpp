@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "framework/scene/load_options.hpp"
 #include "framework/scene/scene.hpp"
 
 namespace lightloom::scene {
@@ -42,6 +43,6 @@ struct SceneFile {
 };
 
 /// Throws Error with file, line and column; unknown members are errors.
-[[nodiscard]] SceneFile read_scene_file(const std::filesystem::path& path);
+[[nodiscard]] SceneFile read_scene_file(const std::filesystem::path& path, const LoadOptions& options = {});
 
 }  // namespace lightloom::scene

@@ -74,9 +74,11 @@ Classes::iterator find_host(Classes& classes, Classes::iterator guest) {
 }
 
 void merge_smallest(Classes& classes, const Scene& scene, std::vector<std::string>& warnings) {
+  std::array<size_t, 2> of_space{};
+  for (const auto& [key, images] : classes) ++of_space[std::get<0>(key) ? 1 : 0];
   Classes::iterator smallest = classes.end();
   for (auto it = classes.begin(); it != classes.end(); ++it) {
-    const bool alone = find_host(classes, it) == classes.end();
+    const bool alone = of_space[std::get<0>(it->first) ? 1 : 0] == 1;
     if (!alone && (smallest == classes.end() || texels_of(*it) < texels_of(*smallest))) smallest = it;
   }
   const Classes::iterator host = find_host(classes, smallest);
@@ -214,6 +216,17 @@ std::vector<uint8_t> halve_image(const std::vector<uint8_t>& rgba, uint32_t widt
     }
   }
   return result;
+}
+
+void require_texture_pages_within(const Scene& scene, const Limits& limits) {
+  Classes classes = find_classes(scene, find_uses(scene));
+  std::vector<std::string> warnings;
+  while (classes.size() > kTexturePageCount) merge_smallest(classes, scene, warnings);
+  uint64_t texels = 0;
+  for (const auto& entry : classes) texels += texels_of(entry);
+  require_within(limits, &Limits::page_texels,
+                 scene.file.string() + ": the texture array of at most " + std::to_string(kTexturePageCount) + " sizes",
+                 texels);
 }
 
 TexturePages build_texture_pages(const Scene& scene) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/base/limits.hpp"
 #include "framework/scene/scene.hpp"
 
 namespace lightloom::scene {
@@ -35,6 +36,10 @@ struct TexturePages {
 /// nearest larger size (or the largest) of their colour space, with a warning.
 /// Mips are box-filtered, colours in linear light; the alpha of images that mask keeps its coverage at the cutoff.
 [[nodiscard]] TexturePages build_texture_pages(const Scene& scene);
+
+/// Throws Error where the pages would have more texels than Limits::page_texels: a thousand tiny images of different
+/// sizes beside a large one can become a thousand large ones.
+void require_texture_pages_within(const Scene& scene, const Limits& limits);
 
 /// Next smaller level of one RGBA8 image; odd sizes are halved downwards, each texel averaging the area it covers.
 [[nodiscard]] std::vector<uint8_t> halve_image(const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height,

@@ -25,7 +25,7 @@ std::string scene_name(const std::filesystem::path& file) {
   return name;
 }
 
-std::vector<std::unique_ptr<LoadedScene>> load_scenes(const StudySpec& spec) {
+std::vector<std::unique_ptr<LoadedScene>> load_scenes(const StudySpec& spec, const scene::LoadOptions& options) {
   std::vector<std::unique_ptr<LoadedScene>> scenes;
   std::map<std::string, uint32_t> names;
   for (const SceneChoice& choice : spec.scenes) ++names[scene_name(choice.file)];
@@ -34,7 +34,7 @@ std::vector<std::unique_ptr<LoadedScene>> load_scenes(const StudySpec& spec) {
     loaded->file = choice.file;
     loaded->name = scene_name(choice.file);
     if (names[loaded->name] > 1) loaded->name = choice.file.generic_string();
-    loaded->scene = scene::load_scene(choice.file);
+    loaded->scene = scene::load_scene(choice.file, options);
     loaded->memo = std::make_shared<run::SceneMemo>();
     loaded->hash = scene_hash(loaded->scene);
     scenes.push_back(std::move(loaded));
@@ -72,7 +72,7 @@ class Planner {
   std::optional<StudyPlan> plan() {
     graph_ = run::read_graph(plan_.spec.graph, registry_, plan_.shaders, diagnostics_);
     if (!graph_ || diagnostics_.has_errors()) return std::nullopt;
-    plan_.scenes = load_scenes(plan_.spec);
+    plan_.scenes = load_scenes(plan_.spec, environment_.load);
     plan_.views = find_views(plan_.spec, plan_.scenes);
     const std::vector<std::string> passes = running_passes();
     if (diagnostics_.has_errors()) return std::nullopt;
@@ -153,7 +153,20 @@ class Planner {
     }
     for (const run::LoadedPlugin& plugin : environment_.plugins)
       words.insert(words.end(), {"--plugin", plugin.file.generic_string()});
+    for (std::string& option : load_arguments()) words.push_back(std::move(option));
     for (std::string& option : command_options(changes)) words.push_back(std::move(option));
+    return words;
+  }
+
+  /// The limits that were raised or lowered: the render would be refused without them.
+  [[nodiscard]] std::vector<std::string> load_arguments() const {
+    std::vector<std::string> words;
+    for (const LimitInfo& info : limit_table()) {
+      const uint64_t value = environment_.load.limits.*info.value;
+      if (value != Limits{}.*info.value)
+        words.insert(words.end(), {"--limit", std::string(info.name) + "=" + std::to_string(value)});
+    }
+    if (environment_.load.allow_outside) words.emplace_back("--allow-outside");
     return words;
   }
 

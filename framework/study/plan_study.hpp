@@ -14,6 +14,7 @@
 #include "framework/run/plugins.hpp"
 #include "framework/run/scene_memo.hpp"
 #include "framework/run/shader_folders.hpp"
+#include "framework/scene/load_options.hpp"
 #include "framework/scene/scene.hpp"
 #include "framework/study/settings.hpp"
 #include "framework/study/study_spec.hpp"
@@ -81,6 +82,7 @@ struct StudyEnvironment {
   const PassRegistry& registry;
   gpu::DeviceInfo device;
   std::vector<run::LoadedPlugin> plugins = {};
+  scene::LoadOptions load = {};  ///< what the files of scenes may ask for
 };
 
 /// Loads the scenes, links every setting in every view and says what each cell depends on. A setting whose own graph

@@ -11,6 +11,7 @@
 
 #include "framework/base/diagnostics.hpp"
 #include "framework/base/file.hpp"
+#include "framework/base/limits.hpp"
 #include "framework/base/text.hpp"
 #include "framework/cli/pass_description.hpp"
 #include "framework/graph/graph_spec.hpp"
@@ -174,6 +175,15 @@ TEST(Docs, the_table_of_stability_has_every_check) {
     EXPECT_NE(table.find("| `" + check.name + "` | " + check.extreme), std::string::npos)
         << check.name
         << "; make the table again: build/lightloom stability --slow --validate --markdown > docs/stability.md";
+}
+
+TEST(Docs, the_table_of_limits_is_that_of_the_code) {
+  const std::string page = read_text_file(kSource / "docs/hostile_input.md");
+  std::string rows = "| limit | default | what it holds for |\n| --- | --- | --- |\n";
+  for (const LimitInfo& info : limit_table())
+    rows += "| `" + std::string(info.name) + "` | " + std::to_string(Limits{}.*info.value) + " | " +
+            std::string(info.doc) + " |\n";
+  EXPECT_THAT(page, ::testing::HasSubstr(rows + "\n"));
 }
 
 TEST(Docs, the_first_graph_of_the_readme_is_the_sample) {

@@ -5,11 +5,10 @@
 #include <functional>
 #include <iostream>
 #include <limits>
-#include <map>
 #include <random>
-#include <set>
 
 #include "framework/base/error.hpp"
+#include "framework/scene/load_options.hpp"
 #include "tests/scene/gltf_builder.hpp"
 
 namespace lightloom::scene {
@@ -120,7 +119,7 @@ std::vector<Breakage> breakages() {
   set("accessor offset", "/accessors/0/byteOffset", 9007199254740000, "reach past the end");
   set("stride below the element", "/bufferViews/0/byteStride", 8, "byteStride is 8, expected at least the 12 bytes");
   set("attribute counts differ", "/accessors/1/count", 3, "has 3 elements, expected 4 as POSITION has");
-  set("index accessor of floats", "/accessors/3/componentType", 5126, "expected SCALAR of u8 u16 u32");
+  set("index accessor of signed integers", "/accessors/3/componentType", 5122, "expected SCALAR of u8 u16 u32");
   set("positions of the wrong type", "/accessors/0/type", "VEC2", "is VEC2 of float, expected VEC3");
   set("unknown component type", "/accessors/0/componentType", 5124, "expected one of 5120, 5121");
   set("unknown accessor type", "/accessors/0/type", "VEC5", "expected one of SCALAR");
@@ -279,11 +278,16 @@ TEST(Broken, DeepNestingAndLongChainsDoNotOverflow) {
   const TemporaryFolder folder;
   const std::string open(100000, '['), close(100000, ']');
   EXPECT_THAT(verdict(folder.write("deep.gltf", R"({"asset":{"version":"2.0"},"extras":)" + open + close + "}")),
-              HasSubstr("nests deeper"));
+              HasSubstr("the JSON has 201 levels, more than the limit of 200"));
   GltfBuilder builder;
   const int quad = builder.quad();
   for (int i = 0; i < 100000; ++i) builder.node(i < 99999 ? json{{"children", {i + 1}}} : json{{"mesh", quad}});
-  EXPECT_EQ(builder.load().triangles.size(), 2u);
+  const std::filesystem::path chain = folder.write("chain.gltf", builder.gltf());
+  EXPECT_THAT(verdict(chain),
+              HasSubstr("nodes[99999] with its ancestors has 100000 levels, more than the limit of 1000"));
+  LoadOptions options;
+  options.limits.node_depth = 100000;
+  EXPECT_EQ(load_scene(chain, options).triangles.size(), 2u);
 }
 
 TEST(Broken, TruncatedFilesAreErrorsOrValid) {
@@ -335,69 +339,6 @@ TEST(Broken, RandomDamageNeverCrashes) {
   }
   std::cout << "random damage: " << loaded << " loaded, " << refused << " refused\n";
   EXPECT_GT(refused, 200);
-}
-
-/// What the reference validator found in a file: the codes of its errors, by the report beside it.
-std::set<std::string> validator_errors(const std::filesystem::path& file) {
-  for (const std::string& name :
-       {file.string() + ".report.json", (file.parent_path() / file.stem()).string() + ".report.json"}) {
-    std::ifstream stream(name);
-    if (!stream) continue;
-    std::set<std::string> codes;
-    const json report = json::parse(stream);
-    for (const json& message : report["issues"].value("messages", json::array())) {
-      if (message["severity"] == 0) codes.insert(message["code"].get<std::string>());
-    }
-    return codes;
-  }
-  return {};
-}
-
-TEST(Broken, EveryCollectedFileGetsAVerdict) {
-  LIGHTLOOM_NEED_SHARED(shared);
-  static const std::set<std::string> must_refuse = {"ACCESSOR_TOO_LONG",
-                                                    "ACCESSOR_INDEX_OOB",
-                                                    "BUFFER_VIEW_TOO_LONG",
-                                                    "UNRESOLVED_REFERENCE",
-                                                    "NODE_LOOP",
-                                                    "NODE_PARENT_OVERRIDE",
-                                                    "IO_ERROR",
-                                                    "INVALID_JSON",
-                                                    "GLB_UNEXPECTED_END_OF_CHUNK_DATA",
-                                                    "GLB_UNEXPECTED_END_OF_CHUNK_HEADER",
-                                                    "GLB_UNEXPECTED_END_OF_HEADER",
-                                                    "GLB_LENGTH_MISMATCH",
-                                                    "GLB_INVALID_MAGIC",
-                                                    "GLB_INVALID_VERSION",
-                                                    "GLB_CHUNK_TOO_BIG",
-                                                    "UNKNOWN_ASSET_MAJOR_VERSION",
-                                                    "TYPE_MISMATCH",
-                                                    "ARRAY_TYPE_MISMATCH",
-                                                    "UNDEFINED_PROPERTY",
-                                                    "BUFFER_BYTE_LENGTH_MISMATCH",
-                                                    "ACCESSOR_SMALL_BYTESTRIDE",
-                                                    "ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT",
-                                                    "SCENE_NON_ROOT_NODE",
-                                                    "ACCESSOR_INVALID_FLOAT"};
-  std::map<std::string, std::pair<int, int>> counts;  // code -> loaded, refused
-  int files = 0, loaded = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(shared / "broken")) {
-    const std::string extension = entry.path().extension().string();
-    if (extension != ".gltf" && extension != ".glb") continue;
-    SCOPED_TRACE(entry.path().string());
-    const std::string sentence = verdict(entry.path());
-    ++files;
-    loaded += sentence.empty() ? 1 : 0;
-    for (const std::string& code : validator_errors(entry.path())) {
-      (sentence.empty() ? counts[code].first : counts[code].second) += 1;
-      EXPECT_FALSE(sentence.empty() && must_refuse.contains(code)) << code << " was taken silently";
-    }
-  }
-  std::cout << files << " files, " << loaded << " load, " << files - loaded
-            << " are refused; by code of the reference validator (loaded, refused):\n";
-  for (const auto& [code, count] : counts)
-    std::cout << "  " << code << " " << count.first << ", " << count.second << "\n";
-  EXPECT_GT(files, 50);
 }
 
 TEST(Broken, FilesWithSpacesAndPercentSignsLoad) {
