@@ -107,7 +107,7 @@ ExitCode bench(const BenchOptions& options, const CommandContext& context, const
   record.command_line = {"lightloom"};
   record.command_line.insert(record.command_line.end(), arguments.begin(), arguments.end());
   Clock::time_point start = Clock::now();
-  const scene::Scene scene = scene::load_scene(options.picture.scene);
+  const scene::Scene scene = scene::load_scene(options.picture.scene, options.picture.limits.load_options());
   record.scene_ms = milliseconds_since(start);
   start = Clock::now();
   gpu::Device device({options.device, false});
