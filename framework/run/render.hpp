@@ -105,8 +105,8 @@ class Renderer {
 
 /// Renders the frames one after another and writes the run folder (design, section 5), which nobody else may write into
 /// meanwhile (FolderLock). A request to stop (base/interrupt.hpp) ends it after the frame under way; the folder is then
-/// that of a run with fewer frames, and its run.json says so. Throws Interrupted where no frame was done. Problems of the graph file or of
-/// the options go to `diagnostics`, and nothing is written; everything else is thrown as Error.
+/// that of a run with fewer frames, and its run.json says so. Throws Interrupted where no frame was done. Problems of
+/// the graph file or of the options go to `diagnostics`, and nothing is written; everything else is thrown as Error.
 /// Returns false when `diagnostics` has errors.
 bool render(const RenderRequest& request, const PassRegistry& registry, const FrameCallback& on_frame,
             Diagnostics& diagnostics, RenderSummary& summary);
