@@ -1,6 +1,8 @@
 #include "framework/gpu/device.hpp"
 
+#include <charconv>
 #include <cstdlib>
+#include <string_view>
 
 #include "framework/base/error.hpp"
 #include "framework/gpu/device_selection.hpp"
@@ -9,7 +11,21 @@
 namespace lightloom::gpu {
 namespace {
 
-constexpr uint64_t kHangNanoseconds = 120ull * 1000 * 1000 * 1000;
+constexpr uint64_t kHangSeconds = 120;
+
+/// How long the device may work on one submission [s]; 0: without end. A CPU's frame may take hours, and does not hang.
+uint64_t patience(DeviceType type) {
+  const char* environment = std::getenv("LIGHTLOOM_DEVICE_TIMEOUT");
+  if (environment == nullptr || *environment == '\0') return type == DeviceType::cpu ? 0 : kHangSeconds;
+  uint64_t seconds = 0;
+  const std::string_view text = environment;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  constexpr uint64_t kMost = 1'000'000;
+  if (error == std::errc() && end == text.data() + text.size() && seconds <= kMost) return seconds;
+  throw Error(ExitCode::usage,
+              "LIGHTLOOM_DEVICE_TIMEOUT is '" + std::string(text) + "', not a number of seconds from 0 to 1000000",
+              "0 waits without end");
+}
 
 std::string wanted_name(const DeviceOptions& options) {
   if (!options.name.empty()) return options.name;
@@ -57,6 +73,7 @@ Device::Device(const DeviceOptions& options) : instance_(options.validate) {
   const size_t chosen = choose_device(summaries, wanted_name(options));
   physical_ = physical_devices[chosen];
   info_ = summaries[chosen].info;
+  patience_ = patience(info_.type);
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
   create_device(options.validate);
   try {
@@ -183,13 +200,15 @@ void Device::wait_commands() {
   if (!running_) return;
   running_ = false;
   const VkFence fence = fence_.get();
-  const uint64_t limit = info_.type == DeviceType::cpu ? UINT64_MAX : kHangNanoseconds;
+  constexpr uint64_t kNanoseconds = 1'000'000'000;
+  const uint64_t limit = patience_ == 0 ? UINT64_MAX : patience_ * kNanoseconds;
   const VkResult waited = vkWaitForFences(device_, 1, &fence, VK_TRUE, limit);
   lost_ = lost_ || waited == VK_ERROR_DEVICE_LOST || waited == VK_TIMEOUT;
   check(waited, "waiting for '" + info_.name + "'");
   if (waited == VK_TIMEOUT) {
-    throw Error(ExitCode::run_failed, "device '" + info_.name + "' did not finish its work within 120 s",
-                "it hangs, or the work is too much for it: try a smaller size or another --device");
+    throw DeviceLost("device '" + info_.name + "' did not finish its work within " + std::to_string(patience_) + " s",
+                     "it hangs, or the work is too much for it: try a smaller --size or another --device, or set "
+                     "LIGHTLOOM_DEVICE_TIMEOUT to more seconds");
   }
 }
 

@@ -84,7 +84,8 @@ class Device {
   void clear_validation_messages() { instance_.log().clear(); }
 
   /// Records one command buffer, submits it and waits until it is done. Not reentrant, one thread at a time.
-  /// Throws Error(run_failed) if the device is lost, or (except on a CPU device) does not finish within 120 s.
+  /// Throws DeviceLost if the device is lost, or does not finish within 120 s; the environment variable
+  /// LIGHTLOOM_DEVICE_TIMEOUT gives other seconds, 0 for no limit, which is what a CPU device has.
   void run_commands(const std::function<void(VkCommandBuffer)>& record);
   /// The two halves of run_commands, for who is still to decide what follows (CommandSession): begins the one command
   /// buffer, forgetting what an unfinished recording left in it …
@@ -112,6 +113,7 @@ class Device {
   uint32_t timestamp_bits_ = 0;
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
+  uint64_t patience_ = 0;  ///< for one submission [s]; 0: no limit
   bool lost_ = false;
   bool running_ = false;  ///< the command buffer was submitted and not yet waited for
   PFN_vkSetDebugUtilsObjectNameEXT set_object_name_ = nullptr;

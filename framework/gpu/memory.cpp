@@ -103,18 +103,16 @@ MemoryHandle allocate(const Device& device, const VkMemoryRequirements& requirem
   info.memoryTypeIndex = choose_type(device, requirements, kind, owner);
   const VkMemoryHeap& heap = device.memory().memoryHeaps[device.memory().memoryTypes[info.memoryTypeIndex].heapIndex];
   if (requirements.size > heap.size) {
-    throw Error(ExitCode::run_failed,
-                need + ", more than the " + bytes_text(heap.size) + " of memory of device '" + device.info().name + "'",
-                "choose a smaller size or resolution");
+    throw OutOfMemory(need + ", more than the " + bytes_text(heap.size) + " of memory of device '" +
+                      device.info().name + "'");
   }
   VkDeviceMemory memory = VK_NULL_HANDLE;
   const VkResult result = vkAllocateMemory(device.get(), &info, nullptr, &memory);
   if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY ||
       result == VK_ERROR_TOO_MANY_OBJECTS) {
-    throw Error(ExitCode::run_failed,
-                need + ", but device '" + device.info().name + "' has no more memory (" + result_name(result) + "; " +
-                    bytes_text(heap.size) + " in all)",
-                "choose a smaller size or resolution");
+    throw OutOfMemory(need + ", but device '" + device.info().name + "' gives no more (" + result_name(result) +
+                      "; it has " + bytes_text(available_bytes(device)) + " left, and a heap of " +
+                      bytes_text(heap.size) + ")");
   }
   check(result, "vkAllocateMemory for " + owner);
   return MemoryHandle(device.get(), memory);

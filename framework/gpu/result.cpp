@@ -48,10 +48,8 @@ void check(VkResult result, std::string_view what) {
   if (result >= 0) return;
   const std::string sentence = std::string(what) + " failed with " + result_name(result);
   if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(sentence);
-  std::string hint;
-  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
-    hint = "the device or the machine is out of memory: a smaller --size or --set resolution=N needs less";
-  throw Error(ExitCode::run_failed, sentence, hint);
+  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) throw OutOfMemory(sentence);
+  throw Error(ExitCode::run_failed, sentence);
 }
 
 void require_driver(VkResult result, std::string_view what) {

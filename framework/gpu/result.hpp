@@ -22,8 +22,15 @@ class DeviceLost : public Error {
                            : std::move(hint)) {}
 };
 
-/// Throws Error(run_failed) that names the call and the result, unless `result` is a success code; DeviceLost for
-/// VK_ERROR_DEVICE_LOST.
+/// The device or the machine has no memory left for something.
+class OutOfMemory : public Error {
+ public:
+  explicit OutOfMemory(const std::string& sentence, const std::string& hint = "choose a smaller size or resolution")
+      : Error(ExitCode::run_failed, sentence, hint) {}
+};
+
+/// Throws Error(run_failed) that names the call and the result, unless `result` is a success code; DeviceLost or
+/// OutOfMemory where the result says so.
 /// @param what the call, e.g. "vkCreateImage (temporal.radiance)"
 void check(VkResult result, std::string_view what);
 

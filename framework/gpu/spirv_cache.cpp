@@ -105,6 +105,11 @@ CacheKey cache_key(std::span<const ShaderSource> stages, const ShaderDefines& de
 
 CacheLookup read_cache(const std::filesystem::path& directory, const CacheKey& key,
                        std::span<const ShaderSource> stages) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(entry_file(directory, key), ignored);
+  if (!std::filesystem::exists(status)) return {};
+  // A pipe that stands there would let the read wait for ever.
+  if (!std::filesystem::is_regular_file(status)) return {.modules = std::nullopt, .damaged = true};
   std::ifstream file(entry_file(directory, key), std::ios::binary);
   if (!file) return {};
   const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "framework/gpu/device.hpp"
@@ -22,10 +23,14 @@ class TimestampPool {
   /// Times of queries 0..written-1 since query 0 [ns]; empty if not available. Call after the submission is done; those
   /// queries must all have been written.
   [[nodiscard]] std::vector<double> nanoseconds(uint32_t written) const;
+  /// Which of the queries 0..count-1 were written since the times were read last, of a device that was lost; nothing
+  /// where it does not tell.
+  [[nodiscard]] std::optional<std::vector<bool>> written(uint32_t count) const;
 
  private:
   const Device& device_;
   uint32_t count_ = 0;
+  mutable uint64_t newest_ = 0;  ///< ticks of those that were read
   QueryPoolHandle pool_;
 };
 

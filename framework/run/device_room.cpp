@@ -5,6 +5,8 @@
 
 #include "framework/base/error.hpp"
 #include "framework/gpu/memory.hpp"
+#include "framework/run/scene_layout.hpp"
+#include "framework/scene/gpu_material.hpp"
 
 namespace lightloom::run {
 namespace {
@@ -82,6 +84,31 @@ std::string lower_all(const Share& volumes, const Share& pictures, uint64_t avai
   return "choose a smaller --size, a shorter history, or a device with more memory";
 }
 
+/// What to lower so that the demand fits: the larger of grids and pictures, if the other one and the scene fit.
+std::string lower_demand(const Graph& graph, const MemoryDemand& demand, uint64_t available) {
+  if (demand.bytes() <= available)
+    return "something else uses the device's memory, or it is in pieces: end that, or choose a smaller --size or "
+           "resolution";
+  const uint64_t pictures = demand.pictures + demand.readback;
+  const auto fraction = [&](uint64_t part) {
+    const uint64_t others = demand.bytes() - part;
+    return others >= available ? 0.0 : static_cast<double>(available - others) / static_cast<double>(part);
+  };
+  if (demand.volumes >= pictures && demand.volumes > 0) {
+    const auto fitting = static_cast<uint32_t>(std::cbrt(fraction(demand.volumes)) * share_of(graph, true).longest);
+    if (fitting >= kLeastResolution) return "lower the param 'resolution' to " + std::to_string(fitting) + " or less";
+  }
+  const double scale = pictures > 0 ? std::sqrt(fraction(pictures)) : 0;
+  const auto width = static_cast<uint32_t>(scale * graph.view.width);
+  const auto height = static_cast<uint32_t>(scale * graph.view.height);
+  if (width > 0 && height > 0)
+    return "choose --size " + std::to_string(width) + "x" + std::to_string(height) +
+           " or less, a shorter history, or a narrower format with --store";
+  if (demand.geometry + demand.textures >= available)
+    return "the scene alone is too large for this device: choose one with more memory";
+  return "lower both --size and the param 'resolution', or choose a device with more memory";
+}
+
 }  // namespace
 
 DeviceRoom room_of(const gpu::Device& device) {
@@ -104,6 +131,35 @@ void require_room(const Graph& graph, const DeviceRoom& room) {
              " that device '" + room.device + "' has left; voxel grids take " + gpu::bytes_text(volumes.bytes) +
              " of it, pictures with their histories " + gpu::bytes_text(pictures.bytes),
          lower_all(volumes, pictures, room.bytes));
+}
+
+MemoryDemand demand_of(const Graph& graph, const scene::Scene& scene) {
+  constexpr uint64_t kFramesHeld = 3;  // one rendered, one written, one that waits for that
+  constexpr uint64_t kTexel = 4;       // of a texture page
+  MemoryDemand demand{.volumes = share_of(graph, true).bytes, .pictures = share_of(graph, false).bytes};
+  for (const GraphOutput& output : graph.outputs)
+    demand.readback += kFramesHeld * byte_size(graph.values[output.value].desc);
+  for (const ValueId capture : graph.captures) demand.readback += kFramesHeld * byte_size(graph.values[capture].desc);
+  const uint64_t moving = scene.vertices.size() - scene.static_vertex_count;
+  constexpr uint64_t kPosition = sizeof(glm::vec4);
+  demand.geometry = scene.vertices.size() * sizeof(scene::Vertex) + scene.triangles.size() * sizeof(scene::Triangle) +
+                    scene.materials.size() * sizeof(scene::GpuMaterial) +
+                    moving * (sizeof(scene::Vertex) + (kHistoryLimit + 1) * kPosition);
+  for (const scene::Image& image : scene.images)
+    demand.textures += kTexel * image.width * image.height * 4 / 3;  // the mip levels: a third
+  demand.textures += scene.environment.rgb.size() / 3 * sizeof(glm::vec4);
+  return demand;
+}
+
+gpu::OutOfMemory with_demand(const gpu::OutOfMemory& error, const Graph& graph, const MemoryDemand& demand,
+                             const DeviceRoom& room) {
+  const std::string sentence = std::string(error.what()) + "; the whole run needs " + gpu::bytes_text(demand.bytes()) +
+                               ": voxel grids " + gpu::bytes_text(demand.volumes) + ", pictures with their histories " +
+                               gpu::bytes_text(demand.pictures) + ", their copies for files " +
+                               gpu::bytes_text(demand.readback) + ", the scene's geometry " +
+                               gpu::bytes_text(demand.geometry) + " and textures " + gpu::bytes_text(demand.textures) +
+                               "; before it the device had " + gpu::bytes_text(room.bytes);
+  return gpu::OutOfMemory(sentence, lower_demand(graph, demand, room.bytes));
 }
 
 }  // namespace lightloom::run

@@ -102,9 +102,13 @@ void Executor::start(uint32_t frame, const FrameWants& wants) {
   next.result.conditions = conditions_;
   descriptors_.reset();
   stamping_ = wants.times && timestamps_.available();
-  gpu::CommandSession session(device_);
-  record_frame(session, *next.copies);
-  session.start();
+  try {
+    gpu::CommandSession session(device_);
+    record_frame(session, *next.copies);
+    session.start();
+  } catch (const gpu::DeviceLost& lost) {
+    throw in_frame(lost, lost_frame(frame));
+  }
   under_way_ = std::move(next);
 }
 
@@ -112,8 +116,12 @@ FinishedFrame Executor::finish() {
   if (!under_way_) throw std::logic_error("there is no frame under way to be finished");
   FinishedFrame frame = std::move(*under_way_);
   under_way_.reset();
-  device_.wait_commands();
-  collect_times(frame);
+  try {
+    device_.wait_commands();
+    collect_times(frame);
+  } catch (const gpu::DeviceLost& lost) {
+    throw in_frame(lost, lost_frame(frame.result.frame));
+  }
   if (scan_) frame.result.scanned = scan_->found();
   ++frame_count_;
   started_ = true;
@@ -262,6 +270,22 @@ void Executor::record_observations(VkCommandBuffer commands, const std::vector<O
     else
       readback_.record(commands, observation, images_, frame_count_, copies);
   }
+}
+
+LostFrame Executor::lost_frame(uint32_t frame) const {
+  LostFrame lost{.frame = frame, .passes = {}, .written = std::nullopt};
+  // The passes that run once come first, but their queries are behind the others.
+  const size_t queries = query_count(plan_.steps.size());
+  const std::vector<PlanStep> once = started_ ? std::vector<PlanStep>() : plan_.once;
+  for (const std::vector<PlanStep>* steps : {&once, &plan_.steps})
+    for (const PlanStep& step : *steps) lost.passes.push_back(plan_.graph.passes[step.pass].name);
+  if (!stamping_) return lost;
+  const auto written = timestamps_.written(static_cast<uint32_t>(queries) + query_count(once.size()));
+  if (!written) return lost;
+  const auto first_once = written->begin() + static_cast<std::ptrdiff_t>(queries);
+  lost.written.emplace(first_once, written->end());
+  lost.written->insert(lost.written->end(), written->begin(), first_once);
+  return lost;
 }
 
 void Executor::collect_times(FinishedFrame& frame) const {

@@ -14,6 +14,7 @@
 #include "framework/run/executor_state.hpp"
 #include "framework/run/frame_result.hpp"
 #include "framework/run/host_passes.hpp"
+#include "framework/run/lost_frame.hpp"
 #include "framework/run/pass_recorder.hpp"
 #include "framework/run/poison.hpp"
 #include "framework/run/readback.hpp"
@@ -114,6 +115,8 @@ class Executor {
                     const FrameCopies& copies);
   void record_pass(VkCommandBuffer commands, const GraphPass& pass);
   void run_host_pass(gpu::CommandSession& session, const GraphPass& pass);
+  /// The frame that the device was lost in.
+  [[nodiscard]] LostFrame lost_frame(uint32_t frame) const;
   void record_timestamp(VkCommandBuffer commands, uint32_t query) const;
   void record_observations(VkCommandBuffer commands, const std::vector<Observation>& observations,
                            const FrameCopies& copies);

@@ -7,6 +7,7 @@
 #include "framework/base/background_jobs.hpp"
 #include "framework/base/interrupt.hpp"
 #include "framework/run/checkpoint.hpp"
+#include "framework/run/lost_frame.hpp"
 
 namespace lightloom::run {
 namespace {
@@ -23,6 +24,19 @@ class FrameLoop {
       : executor_(executor), folder_(folder), progress_(progress), options_(options), writing_(kFramesBehind) {}
 
   void run() {
+    handed_over_ = progress_.frames();
+    try {
+      run_frames();
+    } catch (const gpu::DeviceLost& lost) {
+      // What the device had finished before is written.
+      writing_.finish();
+      throw with_kept(lost, kept());
+    }
+    writing_.finish();
+  }
+
+ private:
+  void run_frames() {
     if (progress_.frames() < options_.total) start();
     while (progress_.frames() < options_.total) {
       FinishedFrame frame = finish();
@@ -35,10 +49,16 @@ class FrameLoop {
       writing_.wait_for_room();
       if (progress_.frames() < options_.total) start();
     }
-    writing_.finish();
   }
 
- private:
+  [[nodiscard]] KeptFrames kept() const {
+    const uint32_t every = options_.checkpoint_every;
+    return {.first = options_.first_frame,
+            .written = handed_over_,
+            .checkpoint = every == 0 ? 0 : handed_over_ - handed_over_ % every,
+            .folder = folder_.path().string()};
+  }
+
   void start() {
     const uint32_t frame = options_.first_frame + progress_.frames();
     started_ = Clock::now();
@@ -57,6 +77,7 @@ class FrameLoop {
 
   void write(FinishedFrame frame, bool last) {
     const std::shared_ptr<Checkpoint> checkpoint = save(last);
+    ++handed_over_;
     if (!checkpoint && !frame.wants.outputs && !frame.wants.captures) return;
     writing_.add([this, checkpoint, frame = std::move(frame)] {
       if (!std::exchange(written_, true) && options_.before_first) options_.before_first();
@@ -84,7 +105,8 @@ class FrameLoop {
   RunProgress& progress_;
   const FrameLoopOptions& options_;
   Clock::time_point started_;
-  bool written_ = false;  ///< something; of the writing thread
+  uint32_t handed_over_ = 0;  ///< frames that are written, or soon will be
+  bool written_ = false;      ///< something; of the writing thread
   BackgroundJobs writing_;
 };
 

@@ -11,6 +11,7 @@
 #include "framework/graph/plan_json.hpp"
 #include "framework/run/checkpoint.hpp"
 #include "framework/run/compile_graph.hpp"
+#include "framework/run/device_room.hpp"
 #include "framework/run/executor.hpp"
 #include "framework/run/frame_loop.hpp"
 #include "framework/run/provenance.hpp"
@@ -160,22 +161,21 @@ std::function<void()> opening_files(const Run& run, const Executor& executor, Ru
 FrameLoopOptions loop_options(const Run& run, const Executor& executor, RunChecks& checks, const RunProgress& progress,
                               RunFolder& folder, const RenderEvents& events) {
   const RenderRequest& request = run.request;
-  return {
-      .first_frame = request.first_frame,
-      .total = run.total,
-      .output_frames = request.output_frames,
-      .dump_frames = request.dump_frames,
-      .checkpoint_every = request.checkpoint_every,
-      .identity = run.identity,
-      .describe = [&run](const FrameResult& frame) { return frame_record(frame, run.request.seed, run.scene); },
-      .go_on_after =
-          [&checks](const FrameResult& frame) {
-            checks.add(frame);
-            return !checks.stop();
-          },
-      .on_frame = events.on_frame,
-      .before_first = progress.frames() == 0 ? opening_files(run, executor, folder) : nullptr,
-      .on_written = events.on_written};
+  return {.first_frame = request.first_frame,
+          .total = run.total,
+          .output_frames = request.output_frames,
+          .dump_frames = request.dump_frames,
+          .checkpoint_every = request.checkpoint_every,
+          .identity = run.identity,
+          .describe = [&run](const FrameResult& frame) { return frame_record(frame, run.request.seed, run.scene); },
+          .go_on_after =
+              [&checks](const FrameResult& frame) {
+                checks.add(frame);
+                return !checks.stop();
+              },
+          .on_frame = events.on_frame,
+          .before_first = progress.frames() == 0 ? opening_files(run, executor, folder) : nullptr,
+          .on_written = events.on_written};
 }
 
 std::vector<std::string> validation_warnings(const gpu::Device& device) {
@@ -276,37 +276,42 @@ bool Renderer::render(const RenderRequest& request, const RenderEvents& events, 
           .identity = {}};
   run.identity = identity_of(run, plan);
   if (!lock_) lock_.emplace(request.out, "render");
-  const std::optional<Checkpoint> checkpoint = find_checkpoint(run);
-  const ExecutorOptions options = executor_options(run, scene_->memo, library_);
-  RunChecks checks(request.checks, *device_, plan, scene, options);
-  Executor executor(*device_, std::move(plan), scene, options);
-  if (checkpoint) {
-    executor.restore(checkpoint->state);
-    checks.resume(checkpoint->state);
-  }
-  RunFolder folder = open_folder(request, checkpoint);
-  folder.replace(broken_off_);
-  RunProgress progress = checkpoint ? checkpoint->progress : RunProgress{};
-  summary.frames_resumed = progress.frames();
+  const DeviceRoom room = room_of(*device_);
   try {
-    render_frames(executor, folder, progress, loop_options(run, executor, checks, progress, folder, events));
-    summary.interrupted_by = progress.frames() < run.total ? interrupt_signal() : 0;
-  } catch (const Interrupted& interrupted) {
-    // In the middle of a frame; those before it are whole.
-    if (progress.frames() == summary.frames_resumed) throw;
-    summary.interrupted_by = interrupted.signal();
-  } catch (...) {
-    broken_off_ = folder.leftovers();
-    throw;
+    const std::optional<Checkpoint> checkpoint = find_checkpoint(run);
+    const ExecutorOptions options = executor_options(run, scene_->memo, library_);
+    RunChecks checks(request.checks, *device_, plan, scene, options);
+    Executor executor(*device_, std::move(plan), scene, options);
+    if (checkpoint) {
+      executor.restore(checkpoint->state);
+      checks.resume(checkpoint->state);
+    }
+    RunFolder folder = open_folder(request, checkpoint);
+    folder.replace(broken_off_);
+    RunProgress progress = checkpoint ? checkpoint->progress : RunProgress{};
+    summary.frames_resumed = progress.frames();
+    try {
+      render_frames(executor, folder, progress, loop_options(run, executor, checks, progress, folder, events));
+      summary.interrupted_by = progress.frames() < run.total ? interrupt_signal() : 0;
+    } catch (const Interrupted& interrupted) {
+      // In the middle of a frame; those before it are whole.
+      if (progress.frames() == summary.frames_resumed) throw;
+      summary.interrupted_by = interrupted.signal();
+    } catch (...) {
+      broken_off_ = folder.leftovers();
+      throw;
+    }
+    summarise(run, executor, checks, folder, progress, summary);
+    Json record = run_record(run, executor, checks, progress, summary.warnings);
+    if (summary.interrupted_by != 0)
+      record["interrupted"] = {{"by", signal_name(summary.interrupted_by)}, {"frames_asked_for", run.total}};
+    folder.finish(std::move(record));
+    broken_off_.clear();
+    library_->drop_unused();
+    return true;
+  } catch (const gpu::OutOfMemory& error) {
+    throw with_demand(error, *graph, demand_of(*graph, scene), room);
   }
-  summarise(run, executor, checks, folder, progress, summary);
-  Json record = run_record(run, executor, checks, progress, summary.warnings);
-  if (summary.interrupted_by != 0)
-    record["interrupted"] = {{"by", signal_name(summary.interrupted_by)}, {"frames_asked_for", run.total}};
-  folder.finish(std::move(record));
-  broken_off_.clear();
-  library_->drop_unused();
-  return true;
 }
 
 bool render(const RenderRequest& request, const PassRegistry& registry, const FrameCallback& on_frame,

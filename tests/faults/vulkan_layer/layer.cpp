@@ -21,7 +21,11 @@ struct Next {
   VkInstance instance = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   bool lost = false;
+  /// Asked for when the instance was made: later the loader answers with the top of the chain, which leads back here.
+  std::map<std::string, PFN_vkVoidFunction> instance_functions{};
 };
+
+const std::map<std::string, PFN_vkVoidFunction>& instance_functions();
 
 std::mutex chain_mutex;
 
@@ -47,7 +51,7 @@ template <typename Function, typename Handle>
 Function next_function(Handle handle, const char* name) {
   const Next next = next_of(handle);
   PFN_vkVoidFunction function =
-      next.device != VK_NULL_HANDLE ? next.device_proc(next.device, name) : next.instance_proc(next.instance, name);
+      next.device != VK_NULL_HANDLE ? next.device_proc(next.device, name) : next.instance_functions.at(name);
   return reinterpret_cast<Function>(function);
 }
 
@@ -65,8 +69,7 @@ struct Name {
 
 /// Functions of a lost device that say so.
 bool tells_of_loss(const std::string& name) {
-  return name.starts_with("vkQueue") || name.ends_with("WaitIdle") || name == "vkWaitForFences" ||
-         name == "vkGetQueryPoolResults";
+  return name.starts_with("vkQueue") || name.ends_with("WaitIdle") || name == "vkWaitForFences";
 }
 
 /// A failed call gives no objects, for the functions where Vulkan says so.
@@ -214,8 +217,10 @@ VkResult create_instance(const VkInstanceCreateInfo* info, const VkAllocationCal
   const auto create = reinterpret_cast<PFN_vkCreateInstance>(proc(VK_NULL_HANDLE, "vkCreateInstance"));
   const VkResult result = create(info, callbacks, instance);
   if (result != VK_SUCCESS) return result;
+  Next next{.instance_proc = proc, .instance = *instance};
+  for (const auto& [name, ours] : instance_functions()) next.instance_functions[name] = proc(*instance, name.c_str());
   const std::lock_guard lock(chain_mutex);
-  chain()[key_of(*instance)] = {.instance_proc = proc, .instance = *instance};
+  chain()[key_of(*instance)] = std::move(next);
   return VK_SUCCESS;
 }
 
@@ -236,7 +241,7 @@ VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* info
   Next next = next_of(physical);
   next.device_proc = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
-  const auto create = reinterpret_cast<PFN_vkCreateDevice>(next.instance_proc(next.instance, "vkCreateDevice"));
+  const auto create = reinterpret_cast<PFN_vkCreateDevice>(next.instance_functions.at("vkCreateDevice"));
   const VkResult result = create(physical, info, callbacks, device);
   if (result != VK_SUCCESS) return result;
   next.device = *device;
