@@ -112,11 +112,11 @@ void write_checkpoint(const std::filesystem::path& run_folder, const Checkpoint&
   append_number(bytes, hash_bytes(bytes.data(), bytes.size()));
   const std::filesystem::path file = run_folder / checkpoint_file();
   std::error_code error;
-  std::filesystem::create_directories(file.parent_path(), error);
+  std::filesystem::create_directory(file.parent_path(), error);  // a run folder that has gone is not made anew
   if (error)
     throw Error(ExitCode::run_failed,
                 "cannot make the folder '" + file.parent_path().string() + "': " + error.message());
-  write_file_atomically(file, bytes);
+  write_file_atomically(file, bytes, Durability::power_loss);
 }
 
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& run_folder) {

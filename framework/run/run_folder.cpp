@@ -86,6 +86,11 @@ bool is_half_written(const fs::path& name) {
   return ::kill(static_cast<pid_t>(std::stol(process.substr(1))), 0) != 0 && errno == ESRCH;
 }
 
+fs::path made(fs::path folder) {
+  make_folder(folder);
+  return folder;
+}
+
 /// A relative path that stays inside its folder.
 bool stays_inside(const fs::path& relative) {
   return relative.is_relative() && std::find(relative.begin(), relative.end(), "..") == relative.end();
@@ -102,14 +107,15 @@ std::string to_string(DumpFormat format) {
   return format == DumpFormat::npy ? "npy" : "exr";
 }
 
-RunFolder::RunFolder(fs::path folder, DumpFormat dump_format) : folder_(std::move(folder)), dump_format_(dump_format) {
-  make_folder(folder_);
+RunFolder::RunFolder(fs::path folder, DumpFormat dump_format)
+    : folder_(made(std::move(folder))), journal_(folder_), dump_format_(dump_format) {
   find_earlier_run();
   remove_half_written();
 }
 
 RunFolder::RunFolder(fs::path folder, DumpFormat dump_format, const nlohmann::ordered_json& state)
-    : folder_(std::move(folder)),
+    : folder_(made(std::move(folder))),
+      journal_(folder_),
       dump_format_(dump_format),
       dumped_values_(state.at("dumped_values")),
       moving_(state.at("moving")),
@@ -153,8 +159,7 @@ void RunFolder::find_earlier_run() {
 
 void RunFolder::begin_writing() {
   if (!replaces_run_) return;
-  std::error_code ignored;
-  fs::remove(folder_ / "run.json", ignored);  // first: without it the folder does not claim to be a finished run
+  journal_.set_aside("run.json");  // first: without it the folder does not claim to be a finished run
   replaces_run_ = false;
 }
 
@@ -181,8 +186,8 @@ std::vector<fs::path> RunFolder::leftovers() const {
 void RunFolder::write_image(fs::path relative, const image::HostImage& image,
                             const std::vector<std::string>& channel_names) {
   const fs::path file = folder_ / relative;
-  make_folder(file.parent_path());
   begin_writing();
+  journal_.prepare(relative);
   if (relative.extension() == ".npy")
     image::write_npy(file, image);
   else if (relative.extension() == ".png")
@@ -193,8 +198,8 @@ void RunFolder::write_image(fs::path relative, const image::HostImage& image,
 }
 
 void RunFolder::write_json(const fs::path& relative, const nlohmann::ordered_json& json) {
-  make_folder((folder_ / relative).parent_path());
   begin_writing();
+  journal_.prepare(relative);
   write_file_atomically(folder_ / relative, json.dump(2) + "\n");
   files_.push_back(relative);
 }
@@ -218,6 +223,7 @@ void RunFolder::write_frame(const Graph& graph, const FrameResult& result, const
         output.image, image::default_channel_names(desc, output.name, {}));
   }
   if (!result.captures.empty()) write_dumps(graph, result, conditions);
+  journal_.commit();
   remove_earlier_run();
 }
 
@@ -250,7 +256,9 @@ void RunFolder::finish(nlohmann::ordered_json record) {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const fs::path& file : files_) files.push_back(file.generic_string());
   record["files"] = files;
+  journal_.prepare("run.json");
   write_file_atomically(folder_ / "run.json", record.dump(2) + "\n");
+  journal_.commit();
 }
 
 }  // namespace lightloom::run

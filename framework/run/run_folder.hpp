@@ -7,6 +7,7 @@
 
 #include "framework/graph/graph.hpp"
 #include "framework/run/frame_result.hpp"
+#include "framework/run/write_journal.hpp"
 #include "framework/scene/scene.hpp"
 
 namespace lightloom::run {
@@ -21,10 +22,10 @@ enum class DumpFormat : uint8_t { exr, npy };
 ///   of them is (docs/buffers.md)
 ///   checkpoint/        what --resume goes on from
 ///   run.json           provenance and times, and the list of all files of the run
-/// Each file appears whole or not at all. Files of an earlier run in the same folder, which its run.json lists, stay
-/// until there is something to take their place: run.json goes with the first file that is written, the rest once the
-/// first frame is whole. So a run that fails before that leaves them as they were, and no stale frame stays among new
-/// ones.
+/// Each file appears whole or not at all, and so do the files of a frame when the run fails. Files of an earlier run in
+/// the same folder, which its run.json lists, stay until the first frame is whole: a run that fails before that leaves
+/// them as they were (WriteJournal), and no stale frame stays among new ones. A run that is killed before that leaves
+/// no run.json.
 class RunFolder {
  public:
   /// Throws Error(run_failed) where the folder cannot be made or written.
@@ -67,6 +68,7 @@ class RunFolder {
                    const std::vector<std::string>& channel_names);
 
   std::filesystem::path folder_;
+  WriteJournal journal_;  ///< of the frame that is being written
   std::vector<std::filesystem::path> files_;
   std::vector<std::filesystem::path> earlier_;  ///< files of the run before that are still there
   bool replaces_run_ = false;                   ///< the run.json of the run before is still there
