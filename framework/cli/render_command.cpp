@@ -21,6 +21,7 @@ struct RenderOptions {
   std::optional<std::string> dump_frames;
   std::optional<std::string> output_frames;
   uint32_t checkpoint_every = 0;
+  double checkpoint_minutes = 0;
   bool resume = false;
   bool watch = false;
   std::string device;
@@ -51,6 +52,7 @@ run::RenderRequest make_request(const RenderOptions& options, const CommandConte
   request.checks = options.checks;
   request.time_passes = !options.no_times;
   request.checkpoint_every = options.checkpoint_every;
+  request.checkpoint_time = std::chrono::duration<double, std::ratio<60>>(options.checkpoint_minutes);
   request.resume = options.resume;
   request.out = options.out.empty() ? std::filesystem::path("out") / options.picture.graph.stem() : options.out;
   request.device = {options.device, options.validate};
@@ -76,7 +78,7 @@ void report(const run::RenderSummary& summary, std::ostream& out) {
       << milliseconds_text(summary.milliseconds_per_frame) << " a frame (median)";
   if (summary.frames_resumed > 0) out << "; " << summary.frames_resumed << " were there already";
   out << '\n';
-  if (!summary.images.empty()) out << summary.images.back().string() << '\n';
+  if (!summary.picture.empty()) out << summary.picture.string() << '\n';
 }
 
 ExitCode interrupted(const run::RenderSummary& summary, uint32_t wanted, bool has_checkpoint,
@@ -94,7 +96,7 @@ ExitCode render(const RenderOptions& options, const CommandContext& context,
   const InterruptRequests interrupts;
   const run::RenderRequest request = make_request(options, context, arguments);
   const uint32_t frames = request.last_frame - request.first_frame + 1;
-  if (options.watch && (options.checkpoint_every > 0 || options.resume))
+  if (options.watch && (options.checkpoint_every > 0 || options.checkpoint_minutes > 0 || options.resume))
     throw Error(ExitCode::usage,
                 "option '--watch' renders from the first frame again, so it goes without '--checkpoint' "
                 "and '--resume'");
@@ -112,7 +114,8 @@ ExitCode render(const RenderOptions& options, const CommandContext& context,
   for (const std::string& warning : summary.warnings) print_warning(context.err, warning);
   report(summary, context.out);
   for (const std::string& failure : summary.failures) print_error(context.err, failure, "");
-  if (summary.interrupted_by != 0) return interrupted(summary, frames, options.checkpoint_every > 0, context);
+  if (summary.interrupted_by != 0)
+    return interrupted(summary, frames, options.checkpoint_every > 0 || options.checkpoint_minutes > 0, context);
   return summary.failures.empty() ? ExitCode::done : ExitCode::run_failed;
 }
 
@@ -150,6 +153,13 @@ void add_render_command(Command& program, const CommandContext& context, const s
               "Save what the next frame needs into the run folder every so many frames, and at the end")
       .placeholder("FRAMES")
       .range(1, kLastFrame)
+      .default_text("none")
+      .group("Long runs");
+  command
+      .option("--checkpoint-minutes", options->checkpoint_minutes,
+              "The same whenever so much time has gone by, at the end of a frame; goes with --checkpoint, or alone")
+      .placeholder("MINUTES")
+      .range(0, 100'000)
       .default_text("none")
       .group("Long runs");
   command

@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // The file: magic, size of the header, header (JSON), texels of all layers in its order, hash of all before.
-constexpr std::string_view kMagic = "lightloom checkpoint 1\n";
+constexpr std::string_view kMagic = "lightloom checkpoint 2\n";
 
 void append(std::vector<std::byte>& bytes, const void* data, size_t size) {
   const auto* begin = static_cast<const std::byte*>(data);

@@ -24,7 +24,7 @@ class FrameLoop {
       : executor_(executor), folder_(folder), progress_(progress), options_(options), writing_(kFramesBehind) {}
 
   void run() {
-    handed_over_ = progress_.frames();
+    handed_over_ = checkpoint_frames_ = progress_.frames();
     try {
       run_frames();
     } catch (const gpu::DeviceLost& lost) {
@@ -52,10 +52,9 @@ class FrameLoop {
   }
 
   [[nodiscard]] KeptFrames kept() const {
-    const uint32_t every = options_.checkpoint_every;
     return {.first = options_.first_frame,
             .written = handed_over_,
-            .checkpoint = every == 0 ? 0 : handed_over_ - handed_over_ % every,
+            .checkpoint = checkpoint_frames_,
             .folder = folder_.path().string()};
   }
 
@@ -70,8 +69,7 @@ class FrameLoop {
     FinishedFrame frame = executor_.finish_frame();
     const std::chrono::duration<double, std::milli> elapsed = Clock::now() - started_;
     if (progress_.frames() == 0) progress_.once_times = frame.result.once_times;
-    progress_.wall_milliseconds.push_back(elapsed.count());
-    progress_.pass_times.push_back(frame.result.times);
+    progress_.add(elapsed.count(), frame.result.times);
     return frame;
   }
 
@@ -92,12 +90,19 @@ class FrameLoop {
   }
 
   /// The checkpoint that is due now, but for the state of the folder; empty if none is.
-  [[nodiscard]] std::shared_ptr<Checkpoint> save(bool last) const {
-    const uint32_t every = options_.checkpoint_every;
-    const uint32_t done = progress_.frames();
-    if (every == 0 || (!last && done % every != 0 && done != options_.total)) return nullptr;
+  [[nodiscard]] std::shared_ptr<Checkpoint> save(bool last) {
+    if (!checkpoint_is_due(last || progress_.frames() == options_.total)) return nullptr;
+    last_checkpoint_ = Clock::now();
+    checkpoint_frames_ = progress_.frames();
     return std::make_shared<Checkpoint>(
         Checkpoint{.identity = options_.identity, .folder = {}, .progress = progress_, .state = executor_.save()});
+  }
+
+  [[nodiscard]] bool checkpoint_is_due(bool last) const {
+    const bool by_frames = options_.checkpoint_every > 0, by_time = options_.checkpoint_time.count() > 0;
+    if (!by_frames && !by_time) return false;
+    return last || (by_frames && progress_.frames() % options_.checkpoint_every == 0) ||
+           (by_time && Clock::now() - last_checkpoint_ >= options_.checkpoint_time);
   }
 
   Executor& executor_;
@@ -105,8 +110,10 @@ class FrameLoop {
   RunProgress& progress_;
   const FrameLoopOptions& options_;
   Clock::time_point started_;
-  uint32_t handed_over_ = 0;  ///< frames that are written, or soon will be
-  bool written_ = false;      ///< something; of the writing thread
+  uint32_t handed_over_ = 0;        ///< frames that are written, or soon will be
+  uint32_t checkpoint_frames_ = 0;  ///< those of them that the last checkpoint has
+  Clock::time_point last_checkpoint_ = Clock::now();
+  bool written_ = false;  ///< something; of the writing thread
   BackgroundJobs writing_;
 };
 

@@ -15,12 +15,28 @@ class FrameRanges {
     uint32_t last = 0;  ///< included
   };
 
+  FrameRanges() = default;
+  /// What `json` made.
+  explicit FrameRanges(const nlohmann::ordered_json& pairs) {
+    for (const nlohmann::ordered_json& pair : pairs)
+      ranges_.push_back({pair.at(0).get<uint32_t>(), pair.at(1).get<uint32_t>()});
+  }
+
   /// In ascending order.
   void add(uint32_t frame) {
     if (ranges_.empty() || ranges_.back().last + 1 != frame)
       ranges_.push_back({frame, frame});
     else
       ranges_.back().last = frame;
+  }
+  [[nodiscard]] const std::vector<Range>& ranges() const { return ranges_; }
+  template <typename Visit>
+  void for_each(const Visit& visit) const {
+    for (const Range& range : ranges_)
+      for (uint32_t frame = range.first;; ++frame) {
+        visit(frame);
+        if (frame == range.last) break;
+      }
   }
   /// "frame 3", "frames 3..7", "frames 3, 5..9"
   [[nodiscard]] std::string text() const {

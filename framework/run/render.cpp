@@ -74,6 +74,7 @@ Json run_record(const Run& run, const Executor& executor, const RunChecks& check
   record["value_memory_bytes"] = executor.value_bytes();
   record["shared_memory"] = sharing_records(executor.memory_sharing());
   record["frame_wall_ms"] = {{"median", median(progress.wall_milliseconds)}, {"frames", progress.wall_milliseconds}};
+  record["timed_every"] = progress.timed_every;
   record["hoisted"] = once_records(executor.plan(), progress.once_times);
   record["passes"] = pass_records(executor.plan(), progress.pass_times);
   checks.add_to(record);
@@ -166,6 +167,7 @@ FrameLoopOptions loop_options(const Run& run, const Executor& executor, RunCheck
           .output_frames = request.output_frames,
           .dump_frames = request.dump_frames,
           .checkpoint_every = request.checkpoint_every,
+          .checkpoint_time = request.checkpoint_time,
           .identity = run.identity,
           .describe = [&run](const FrameResult& frame) { return frame_record(frame, run.request.seed, run.scene); },
           .go_on_after =
@@ -185,18 +187,11 @@ std::vector<std::string> validation_warnings(const gpu::Device& device) {
   return warnings;
 }
 
-/// The pictures a person would open: 8-bit images, else every output of the frames.
-std::vector<std::filesystem::path> pictures(const RunFolder& folder) {
-  std::vector<std::filesystem::path> images;
-  for (const std::filesystem::path& file : folder.files())
-    if (file.extension() == ".png") images.push_back(folder.path() / file);
-  return images;
-}
-
 void summarise(const Run& run, const Executor& executor, const RunChecks& checks, const RunFolder& folder,
                const RunProgress& progress, RenderSummary& summary) {
   summary.folder = folder.path();
-  summary.images = pictures(folder);
+  if (const std::filesystem::path picture = folder.files().last_of_frames(".png"); !picture.empty())
+    summary.picture = folder.path() / picture;
   summary.warnings = run.scene.warnings;
   for (const std::vector<std::string>& more :
        {executor.scene_warnings(), checks.warnings(), validation_warnings(run.device)})

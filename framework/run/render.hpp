@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -46,6 +47,7 @@ struct RenderRequest {
   FrameSet dump_frames;    ///< whose captures are written
   /// Frames between two checkpoints; the last frame gets one as well. 0: none.
   uint32_t checkpoint_every = 0;
+  std::chrono::duration<double> checkpoint_time{0};  ///< FrameLoopOptions::checkpoint_time
   /// Go on from the checkpoint of the run folder, if it has one, instead of starting anew.
   bool resume = false;
   gpu::DeviceOptions device;
@@ -56,13 +58,13 @@ struct RenderRequest {
 
 struct RenderSummary {
   std::filesystem::path folder;
-  std::vector<std::filesystem::path> images;  ///< the `image` output of each frame, or the first output's files
-  std::vector<std::string> warnings;          ///< of the graph and the scene, and what the validation layers said
-  std::vector<std::string> failures;          ///< of the checks: why the render counts as failed
-  uint32_t frames = 0;                        ///< that are there: fewer than asked for where a check ended the render
-  uint32_t frames_resumed = 0;                ///< of an interrupted run that were there already
-  double milliseconds_per_frame = 0;          ///< median wall time
-  int interrupted_by = 0;                     ///< the signal that ended it early; 0: none
+  std::filesystem::path picture;      ///< the last one that a person would open; empty: none
+  std::vector<std::string> warnings;  ///< of the graph and the scene, and what the validation layers said
+  std::vector<std::string> failures;  ///< of the checks: why the render counts as failed
+  uint32_t frames = 0;                ///< that are there: fewer than asked for where a check ended the render
+  uint32_t frames_resumed = 0;        ///< of an interrupted run that were there already
+  double milliseconds_per_frame = 0;  ///< median wall time
+  int interrupted_by = 0;             ///< the signal that ended it early; 0: none
 };
 
 struct RenderEvents {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <set>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -22,6 +23,9 @@ namespace lightloom::run {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kConditions = "/frame.json";
+constexpr const char* kPositions = "/moving_positions.npy";
 
 std::string dimension_text(const ImageDesc& desc) {
   return desc.dimension == Dimension::d3 ? "3d" : "2d";
@@ -98,11 +102,6 @@ bool stays_inside(const fs::path& relative) {
 
 }  // namespace
 
-std::string frame_text(uint32_t frame) {
-  const std::string digits = std::to_string(frame);
-  return digits.size() >= 4 ? digits : std::string(4 - digits.size(), '0') + digits;
-}
-
 std::string to_string(DumpFormat format) {
   return format == DumpFormat::npy ? "npy" : "exr";
 }
@@ -116,23 +115,22 @@ RunFolder::RunFolder(fs::path folder, DumpFormat dump_format)
 RunFolder::RunFolder(fs::path folder, DumpFormat dump_format, const nlohmann::ordered_json& state)
     : folder_(made(std::move(folder))),
       journal_(folder_),
+      files_(state.at("files")),
       dump_format_(dump_format),
       dumped_values_(state.at("dumped_values")),
       moving_(state.at("moving")),
+      has_positions_(state.at("has_positions").get<bool>()),
       dumped_frames_(state.at("dumped_frames")) {
-  for (const nlohmann::ordered_json& file : state.at("files")) files_.emplace_back(file.get<std::string>());
   replaces_run_ = fs::exists(folder_ / "run.json");  // of the interrupted run
   remove_half_written();
 }
 
 nlohmann::ordered_json RunFolder::state() const {
-  nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const fs::path& file : files_) files.push_back(file.generic_string());
-  return {{"files", files}, {"dumped_values", dumped_values_}, {"moving", moving_}, {"dumped_frames", dumped_frames_}};
-}
-
-void RunFolder::add_file(const fs::path& relative) {
-  if (std::find(files_.begin(), files_.end(), relative) == files_.end()) files_.push_back(relative);
+  return {{"files", files_.json()},
+          {"dumped_values", dumped_values_},
+          {"moving", moving_},
+          {"has_positions", has_positions_},
+          {"dumped_frames", dumped_frames_.json()}};
 }
 
 void RunFolder::remove_half_written() const {
@@ -165,8 +163,11 @@ void RunFolder::begin_writing() {
 
 void RunFolder::remove_earlier_run() {
   std::error_code ignored;
+  if (earlier_.empty()) return;
+  const std::vector<fs::path> names = files_.all();
+  const std::set<fs::path> written(names.begin(), names.end());
   for (const fs::path& file : earlier_) {
-    if (std::find(files_.begin(), files_.end(), file) != files_.end()) continue;
+    if (written.contains(file)) continue;
     fs::remove(folder_ / file, ignored);
     fs::remove((folder_ / file).parent_path(), ignored);  // goes only when it is empty
   }
@@ -179,11 +180,12 @@ void RunFolder::replace(const std::vector<fs::path>& broken_off) {
 
 std::vector<fs::path> RunFolder::leftovers() const {
   std::vector<fs::path> files = earlier_;
-  files.insert(files.end(), files_.begin(), files_.end());
+  const std::vector<fs::path> written = files_.all();
+  files.insert(files.end(), written.begin(), written.end());
   return files;
 }
 
-void RunFolder::write_image(fs::path relative, const image::HostImage& image,
+void RunFolder::write_image(const fs::path& relative, const image::HostImage& image,
                             const std::vector<std::string>& channel_names) {
   const fs::path file = folder_ / relative;
   begin_writing();
@@ -194,14 +196,12 @@ void RunFolder::write_image(fs::path relative, const image::HostImage& image,
     image::write_png(file, image);
   else
     image::write_exr(file, image, channel_names);
-  files_.push_back(std::move(relative));
 }
 
 void RunFolder::write_json(const fs::path& relative, const nlohmann::ordered_json& json) {
   begin_writing();
   journal_.prepare(relative);
   write_file_atomically(folder_ / relative, json.dump(2) + "\n");
-  files_.push_back(relative);
 }
 
 void RunFolder::write_moving_triangles(const scene::Scene& scene) {
@@ -209,18 +209,29 @@ void RunFolder::write_moving_triangles(const scene::Scene& scene) {
   if (moving.empty()) return;
   const fs::path file = fs::path("dumps") / "moving_triangles.npy";
   write_image(file, table(Format::r32_uint, 5, std::as_bytes(moving)), {});
+  files_.add(file);
   moving_ = {{"triangles", file.generic_string()},
              {"first_triangle", scene.static_triangle_count},
              {"first_vertex", scene.static_vertex_count}};
+}
+
+void RunFolder::write_plan(const nlohmann::ordered_json& plan) {
+  write_json("plan.json", plan);
+  files_.add("plan.json");
+}
+
+void RunFolder::write_frame_image(const std::string& before, uint32_t frame, const std::string& after,
+                                  const image::HostImage& image, const std::vector<std::string>& channel_names) {
+  write_image(before + frame_text(frame) + after, image, channel_names);
+  files_.add(before, frame, after);
 }
 
 void RunFolder::write_frame(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions) {
   for (const NamedImage& output : result.outputs) {
     const ImageDesc& desc = output.image.desc;
     const bool display = desc.dimension == Dimension::d2 && desc.format == Format::rgba8_unorm;
-    write_image(
-        output.name + "." + frame_text(result.frame) + (display ? ".png" : data_extension(desc, DumpFormat::exr)),
-        output.image, image::default_channel_names(desc, output.name, {}));
+    write_frame_image(output.name + ".", result.frame, display ? ".png" : data_extension(desc, DumpFormat::exr),
+                      output.image, image::default_channel_names(desc, output.name, {}));
   }
   if (!result.captures.empty()) write_dumps(graph, result, conditions);
   journal_.commit();
@@ -228,33 +239,46 @@ void RunFolder::write_frame(const Graph& graph, const FrameResult& result, const
 }
 
 void RunFolder::write_dumps(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions) {
-  const fs::path frame = fs::path("dumps") / frame_text(result.frame);
-  nlohmann::ordered_json files = nlohmann::ordered_json::object();
   for (const NamedImage& capture : result.captures) {
     const Value& value = find_value(graph, capture.name);
-    write_image(frame / (capture.name + data_extension(value.desc, dump_format_)), capture.image,
-                image::default_channel_names(value.desc, value.port, value.part));
-    files[capture.name] = files_.back().generic_string();
+    write_frame_image("dumps/", result.frame, "/" + capture.name + data_extension(value.desc, dump_format_),
+                      capture.image, image::default_channel_names(value.desc, value.port, value.part));
     if (!dumped_values_.contains(capture.name)) dumped_values_[capture.name] = describe(graph, value);
   }
-  write_json(frame / "frame.json", conditions);
-  nlohmann::ordered_json entry = {
-      {"frame", result.frame}, {"conditions", files_.back().generic_string()}, {"files", files}};
+  write_json("dumps/" + frame_text(result.frame) + kConditions, conditions);
+  files_.add("dumps/", result.frame, kConditions);
   if (const std::vector<glm::vec3>& positions = result.conditions.moving_positions; !positions.empty()) {
-    write_image(frame / "moving_positions.npy", table(Format::r32_sfloat, 3, std::as_bytes(std::span(positions))), {});
-    entry["moving_positions"] = files_.back().generic_string();
+    write_frame_image("dumps/", result.frame, kPositions,
+                      table(Format::r32_sfloat, 3, std::as_bytes(std::span(positions))), {});
+    has_positions_ = true;
   }
-  dumped_frames_.push_back(std::move(entry));
+  dumped_frames_.add(result.frame);
+}
+
+nlohmann::ordered_json RunFolder::dump_index() const {
+  nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+  dumped_frames_.for_each([&](uint32_t frame) {
+    const std::string folder = "dumps/" + frame_text(frame);
+    nlohmann::ordered_json files = nlohmann::ordered_json::object();
+    for (const auto& [name, value] : dumped_values_.items()) {
+      const bool array = value["dimension"] == "3d" || dump_format_ == DumpFormat::npy;
+      files[name] = folder + "/" + name + (array ? ".npy" : ".exr");
+    }
+    frames.push_back({{"frame", frame}, {"conditions", folder + kConditions}, {"files", files}});
+    if (has_positions_) frames.back()["moving_positions"] = folder + kPositions;
+  });
+  return {{"values", dumped_values_}, {"moving", moving_}, {"frames", frames}};
 }
 
 void RunFolder::finish(nlohmann::ordered_json record) {
   begin_writing();
   remove_earlier_run();
-  if (!dumped_frames_.empty())
-    write_json(fs::path("dumps") / "index.json",
-               {{"values", dumped_values_}, {"moving", moving_}, {"frames", dumped_frames_}});
+  if (!dumped_frames_.ranges().empty()) {
+    write_json("dumps/index.json", dump_index());
+    files_.add("dumps/index.json");
+  }
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const fs::path& file : files_) files.push_back(file.generic_string());
+  for (const fs::path& file : files_.all()) files.push_back(file.generic_string());
   record["files"] = files;
   journal_.prepare("run.json");
   write_file_atomically(folder_ / "run.json", record.dump(2) + "\n");

@@ -8,6 +8,7 @@
 #include "framework/graph/graph.hpp"
 #include "framework/run/frame_result.hpp"
 #include "framework/run/write_journal.hpp"
+#include "framework/run/written_files.hpp"
 #include "framework/scene/scene.hpp"
 
 namespace lightloom::run {
@@ -38,7 +39,7 @@ class RunFolder {
   /// dumps/FFFF/moving_positions.npy, shape (n, 3, 1) [m]. Only of use with captures.
   void write_moving_triangles(const scene::Scene& scene);
   /// What every frame executes, as plan_json has it: `plan.json`.
-  void write_plan(const nlohmann::ordered_json& plan) { write_json("plan.json", plan); }
+  void write_plan(const nlohmann::ordered_json& plan);
   /// Writes the outputs, and, if the frame has captures, these with `conditions` as frame.json beside them.
   void write_frame(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions);
   /// Writes the index of the dumps and `record` as run.json, with the list of files added.
@@ -47,7 +48,7 @@ class RunFolder {
   /// What was written so far, for a checkpoint.
   [[nodiscard]] nlohmann::ordered_json state() const;
   /// Lists a file that something else wrote into the folder.
-  void add_file(const std::filesystem::path& relative);
+  void add_file(const std::filesystem::path& relative) { files_.add(relative); }
   /// Files of a run that was broken off, relative to the folder: they go like those of an earlier run.
   void replace(const std::vector<std::filesystem::path>& broken_off);
   /// What this run would leave behind if it were broken off now.
@@ -55,7 +56,7 @@ class RunFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
   /// Files written so far, relative to the folder.
-  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+  [[nodiscard]] const WrittenFiles& files() const { return files_; }
 
  private:
   void find_earlier_run();
@@ -64,21 +65,22 @@ class RunFolder {
   void remove_half_written() const;
   void write_dumps(const Graph& graph, const FrameResult& result, const nlohmann::ordered_json& conditions);
   void write_json(const std::filesystem::path& relative, const nlohmann::ordered_json& json);
-  void write_image(std::filesystem::path relative, const image::HostImage& image,
+  void write_image(const std::filesystem::path& relative, const image::HostImage& image,
                    const std::vector<std::string>& channel_names);
+  void write_frame_image(const std::string& before, uint32_t frame, const std::string& after,
+                         const image::HostImage& image, const std::vector<std::string>& channel_names);
+  [[nodiscard]] nlohmann::ordered_json dump_index() const;
 
   std::filesystem::path folder_;
   WriteJournal journal_;  ///< of the frame that is being written
-  std::vector<std::filesystem::path> files_;
+  WrittenFiles files_;
   std::vector<std::filesystem::path> earlier_;  ///< files of the run before that are still there
   bool replaces_run_ = false;                   ///< the run.json of the run before is still there
   DumpFormat dump_format_;
   nlohmann::ordered_json dumped_values_ = nlohmann::ordered_json::object();  ///< by name
   nlohmann::ordered_json moving_;                                            ///< null where nothing moves
-  nlohmann::ordered_json dumped_frames_ = nlohmann::ordered_json::array();
+  bool has_positions_ = false;                                               ///< of what moves, in each dumped frame
+  FrameRanges dumped_frames_;                                                ///< each with all of dumped_values_
 };
-
-/// Frame number in file names: four digits or more.
-[[nodiscard]] std::string frame_text(uint32_t frame);
 
 }  // namespace lightloom::run

@@ -242,7 +242,7 @@ TEST_F(FrameLoopTest, WhatWasRenderedBeforeAFailureIsWritten) {
   const std::optional<Checkpoint> checkpoint = read_checkpoint(folder_ / "run");
   ASSERT_TRUE(checkpoint);
   EXPECT_EQ(checkpoint->progress.frames(), 3U);
-  EXPECT_EQ(checkpoint->folder["dumped_frames"].size(), 3U);
+  EXPECT_EQ(checkpoint->folder["dumped_frames"].dump(), "[[0,2]]");
 }
 
 TEST_F(FrameLoopTest, ACheckpointNeverCountsAFrameWhoseFilesAreMissing) {
@@ -255,13 +255,34 @@ TEST_F(FrameLoopTest, ACheckpointNeverCountsAFrameWhoseFilesAreMissing) {
     const std::optional<Checkpoint> checkpoint = read_checkpoint(folder_ / "run");
     if (!checkpoint) return ordered_json{};
     ++looked;
-    for (const ordered_json& file : checkpoint->folder["files"])
-      EXPECT_TRUE(fs::exists(folder_ / "run" / file.get<std::string>())) << file;
-    EXPECT_EQ(checkpoint->folder["dumped_frames"].size(), checkpoint->progress.frames());
+    for (const fs::path& file : WrittenFiles(checkpoint->folder["files"]).all())
+      EXPECT_TRUE(fs::exists(folder_ / "run" / file)) << file;
+    EXPECT_EQ(checkpoint->folder["dumped_frames"].dump(),
+              "[[0," + std::to_string(checkpoint->progress.frames() - 1) + "]]");
     return ordered_json{};
   };
   render("run", loop);
   EXPECT_EQ(looked, 5);
+}
+
+TEST_F(FrameLoopTest, CheckpointsByTimeComeAtTheEndsOfFrames) {
+  FrameLoopOptions loop = options(6);
+  loop.checkpoint_time = std::chrono::hours(1);
+  loop.identity = {{"what", "test"}};
+  uint32_t seen = 0;
+  loop.describe = [&](const FrameResult&) {
+    if (const std::optional<Checkpoint> checkpoint = read_checkpoint(folder_ / "run"))
+      seen = checkpoint->progress.frames();
+    return ordered_json{};
+  };
+  render("run", loop);
+  EXPECT_EQ(seen, 0U) << "the time is not over";
+  ASSERT_TRUE(read_checkpoint(folder_ / "run"));
+  EXPECT_EQ(read_checkpoint(folder_ / "run")->progress.frames(), 6U) << "the last frame has one";
+  fs::remove_all(folder_ / "run");
+  loop.checkpoint_time = std::chrono::nanoseconds(1);
+  render("run", loop);
+  EXPECT_EQ(seen, 5U) << "the time is over after each frame";
 }
 
 TEST_F(FrameLoopTest, OneFrameAtATimeIsUnderWay) {

@@ -43,12 +43,6 @@ FrameResult outputs_only(uint32_t frame) {
   return result;
 }
 
-TEST(FrameText, HasFourDigitsOrMore) {
-  EXPECT_EQ(frame_text(0), "0000");
-  EXPECT_EQ(frame_text(321), "0321");
-  EXPECT_EQ(frame_text(12345), "12345");
-}
-
 TEST_F(RunFolderTest, WritesOutputsDumpsAndIndex) {
   FrameResult result = outputs_only(7);
   Value plane{.pass = "gather",
