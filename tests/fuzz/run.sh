@@ -10,6 +10,7 @@ here=$source/tests/sanitize
 "$here/build.sh" "$source" "$folder" "${target}_fuzzer"
 # shellcheck source=tests/sanitize/options.sh
 source "$here/options.sh"
+[[ $target == graph_file ]] || slow_unwind
 corpus=$source/tests/fuzz/corpus/$target
 mkdir -p "$folder/corpus/$target" "$folder/found"
 program=$folder/tests/${target}_fuzzer

@@ -1,5 +1,6 @@
 // Scene files: bytes that begin as GLB are tried as .glb, text that speaks of lightloom_scene as *.scene.json, all else
 // as .gltf. Each must load or be refused by an Error; a scene that loads must be sound.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>

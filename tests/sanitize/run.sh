@@ -7,6 +7,7 @@ programs=(test_base test_graph test_image test_scene)
 "$here/build.sh" "$1" "$folder" "${programs[@]}" fuzz_graph
 # shellcheck source=tests/sanitize/options.sh
 source "$here/options.sh"
+slow_unwind
 failed=0
 for program in "${programs[@]}"; do
   echo "== $program"
