@@ -29,7 +29,7 @@ class Usage {
   static constexpr bool kSanitized = false;
 #endif
   static constexpr uint64_t kSanitizerMemory = kSanitized ? 4 : 1;
-  static constexpr double kSanitizerTime = kSanitized ? 20 : 1;
+  static constexpr double kSanitizerTime = kSanitized ? 40 : 1;  // slow unwinding included
 
   static double now() {
     timespec time{};
