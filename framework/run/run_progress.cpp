@@ -30,8 +30,8 @@ std::vector<PassTime> times_from(const Json& names, const Json& numbers) {
 /// Every second entry, the first one included.
 template <typename Entry>
 void thin_out(std::vector<Entry>& entries) {
-  size_t kept = 0;
-  for (size_t i = 0; i < entries.size(); i += 2) entries[kept++] = std::move(entries[i]);
+  size_t kept = 1;  // the first one stays where it is: what moves onto itself is lost
+  for (size_t i = 2; i < entries.size(); i += 2) entries[kept++] = std::move(entries[i]);
   entries.resize(kept);
 }
 

@@ -106,7 +106,8 @@ TEST_F(Storage, EveryShaderBoundsWhatItStores) {
   const std::set<std::string> outputs = bounded_outputs();
   std::set<std::string> stored;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() / "shaders")) {
-    if (!entry.is_regular_file()) continue;
+    // Those of stability checks are no passes, and some of them store what is no number on purpose.
+    if (!entry.is_regular_file() || entry.path().parent_path().filename() == "stability") continue;
     const std::string text = read_text_file(entry.path());
     for (const std::string& name : outputs)
       for (const std::string& start : {"imageStore(" + name + ",", "  " + name + " = storable("})

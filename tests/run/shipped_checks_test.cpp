@@ -109,7 +109,7 @@ class FaultyShaders : public ShippedChecks {
 };
 
 TEST_P(FaultyShaders, AreNamedByTheirPass) {
-  const std::string store = "imageStore(out_radiance, pixel, result);";
+  const std::string store = "imageStore(out_radiance, pixel, storable(result, out_radiance_largest));";
   RenderSummary summary = render_with("modulate.comp", store, "if (pixel.x != 7) " + store);
   EXPECT_EQ(summary.warnings, (std::vector<std::string>{
                                   "modulate.radiance: modulate leaves 36 of 1728 texels unwritten, first 7,0; frames "

@@ -8,12 +8,13 @@
 
 namespace lightloom::test {
 
-/// Bytes of all files of a run folder by relative path, but for run.json and the checkpoint, which hold times.
+/// Bytes of all files of a run folder by relative path, but for run.json and the checkpoint, which hold times, and the
+/// lock of who writes there.
 inline std::map<std::string, std::string> run_files(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string name = std::filesystem::relative(entry.path(), folder).generic_string();
-    if (!entry.is_regular_file() || name == "run.json" || name.starts_with("checkpoint/")) continue;
+    if (!entry.is_regular_file() || name == "run.json" || name == ".lock" || name.starts_with("checkpoint/")) continue;
     std::ifstream stream(entry.path(), std::ios::binary);
     std::stringstream bytes;
     bytes << stream.rdbuf();
