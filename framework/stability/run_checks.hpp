@@ -20,7 +20,8 @@ struct Outcome {
 /// It measured something, each figure keeps its threshold, and nothing failed.
 [[nodiscard]] bool passed(const Outcome& outcome);
 
-/// Runs one check; never throws what the check throws, but Interrupted. Validation messages that came meanwhile are a failure.
+/// Runs one check; never throws what the check throws, but Interrupted. Validation messages that came meanwhile are a
+/// failure.
 [[nodiscard]] Outcome run_check(const Check& check, Lab& lab);
 
 /// The checks whose name or group fits one of the globs (all for no globs), slow ones only if `slow`, or if one of the
