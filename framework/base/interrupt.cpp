@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 
 namespace lightloom {
 namespace {
@@ -30,9 +31,8 @@ extern "C" void request_stop(int signal) {
 
 }  // namespace
 
-InterruptRequests::InterruptRequests() {
-  if (listening) return;
-  listening = true;
+InterruptRequests::InterruptRequests() : outermost_(!std::exchange(listening, true)) {
+  if (!outermost_) return;
   requested = 0;
   struct sigaction action {};
   action.sa_handler = request_stop;
@@ -45,6 +45,7 @@ InterruptRequests::InterruptRequests() {
 }
 
 InterruptRequests::~InterruptRequests() {
+  if (!outermost_) return;
   for (size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before[i], nullptr);
   requested = 0;
   listening = false;

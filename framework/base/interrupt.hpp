@@ -29,6 +29,9 @@ class InterruptRequests {
   InterruptRequests& operator=(const InterruptRequests&) = delete;
   /// Signals do what they did before; a request that nobody answered is forgotten.
   ~InterruptRequests();
+
+ private:
+  const bool outermost_;
 };
 
 /// The signal by which a stop was requested; 0: none. From any thread.

@@ -33,6 +33,13 @@ TEST(Interrupt, TheFirstSignalIsARequestTheSecondWouldEndTheProcess) {
   EXPECT_EQ(handler_of(SIGINT), SIG_DFL);
 }
 
+TEST(Interrupt, TheOuterOneGoesOnAfterAnInnerOne) {
+  const InterruptRequests outer;
+  { const InterruptRequests inner; }
+  ::raise(SIGINT);
+  EXPECT_EQ(interrupt_signal(), SIGINT);
+}
+
 TEST(Interrupt, IgnoredSignalsStayIgnored) {
   ::signal(SIGHUP, SIG_IGN);
   {
