@@ -104,17 +104,7 @@ std::vector<Figure> measure_bad_frames(Lab& lab) {
 }  // namespace
 
 void add_accumulation_checks(std::vector<Check>& checks) {
-  const std::string group = "accumulation";
-  const auto add = [&](std::string name, std::string extreme, std::string danger, std::string guard,
-                       std::function<std::vector<Figure>(Lab&)> measure, bool slow = false) {
-    checks.push_back({.name = std::move(name),
-                      .group = group,
-                      .extreme = std::move(extreme),
-                      .danger = std::move(danger),
-                      .guard = std::move(guard),
-                      .measure = std::move(measure),
-                      .slow = slow});
-  };
+  const CheckGroup add(checks, "accumulation");
   const std::string sums = "sums with the rounding errors beside them: shaders/lib/compensated_sum.glsl";
   add("constant_frames", "10000 frames of a constant", "a running mean in half floats stalls after 45 frames", sums,
       [](Lab& lab) { return drift(lab, 10000); });

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/stability/figure.hpp"
@@ -19,6 +20,19 @@ struct Check {
   /// Renders and measures. What it throws fails the check with that text.
   std::function<std::vector<Figure>(Lab&)> measure;
   bool slow = false;  ///< more than about ten seconds on two cores
+};
+
+/// Adds checks of one group to a list, which outlives it.
+class CheckGroup {
+ public:
+  CheckGroup(std::vector<Check>& checks, std::string group) : checks_(checks), group_(std::move(group)) {}
+  /// The members of Check, in their order.
+  void operator()(std::string name, std::string extreme, std::string danger, std::string guard,
+                  std::function<std::vector<Figure>(Lab&)> measure, bool slow = false) const;
+
+ private:
+  std::vector<Check>& checks_;
+  std::string group_;
 };
 
 /// All checks, by group.

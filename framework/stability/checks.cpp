@@ -2,6 +2,17 @@
 
 namespace lightloom::stability {
 
+void CheckGroup::operator()(std::string name, std::string extreme, std::string danger, std::string guard,
+                            std::function<std::vector<Figure>(Lab&)> measure, bool slow) const {
+  checks_.push_back({.name = std::move(name),
+                     .group = group_,
+                     .extreme = std::move(extreme),
+                     .danger = std::move(danger),
+                     .guard = std::move(guard),
+                     .measure = std::move(measure),
+                     .slow = slow});
+}
+
 std::vector<Check> all_checks() {
   std::vector<Check> checks;
   add_geometry_checks(checks);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+
+#include "framework/image/bit_difference.hpp"
 
 namespace lightloom::stability {
 namespace {
@@ -51,13 +52,8 @@ void for_each_difference(const image::HostImage& reference, const image::HostIma
 }  // namespace
 
 double differing_texels(const image::HostImage& a, const image::HostImage& b) {
-  const size_t count = texel_count(a);
-  if (a.desc.extent != b.desc.extent || a.desc.format != b.desc.format) return static_cast<double>(count);
-  const size_t bytes = a.texels.size() / std::max<size_t>(count, 1);
-  size_t differing = 0;
-  for (size_t i = 0; i < count; ++i)
-    differing += std::memcmp(&a.texels[i * bytes], &b.texels[i * bytes], bytes) != 0 ? 1 : 0;
-  return static_cast<double>(differing);
+  if (a.desc != b.desc) return static_cast<double>(texel_count(a));
+  return static_cast<double>(image::bit_difference(a, b).texels);
 }
 
 double non_finite_texels(const image::HostImage& image) {

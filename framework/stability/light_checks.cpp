@@ -205,16 +205,7 @@ std::vector<Figure> measure_split(Lab& lab) {
 }  // namespace
 
 void add_light_checks(std::vector<Check>& checks) {
-  const std::string group = "emitters";
-  const auto add = [&](std::string name, std::string extreme, std::string danger, std::string guard,
-                       std::function<std::vector<Figure>(Lab&)> measure) {
-    checks.push_back({.name = std::move(name),
-                      .group = group,
-                      .extreme = std::move(extreme),
-                      .danger = std::move(danger),
-                      .guard = std::move(guard),
-                      .measure = std::move(measure)});
-  };
+  const CheckGroup add(checks, "emitters");
   add("nothing_added", "an emitter without area, and one without radiance, beside a lamp",
       "0/0 in the table of emitters, other random choices",
       "emitters are drawn by area times luminance: framework/scene/lights.cpp", measure_nothing_added);

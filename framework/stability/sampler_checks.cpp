@@ -214,16 +214,7 @@ std::vector<Figure> measure_shares(Lab& lab) {
 }  // namespace
 
 void add_sampler_checks(std::vector<Check>& checks) {
-  const std::string group = "samplers";
-  const auto add = [&](std::string name, std::string extreme, std::string danger, std::string guard,
-                       std::function<std::vector<Figure>(Lab&)> measure) {
-    checks.push_back({.name = std::move(name),
-                      .group = group,
-                      .extreme = std::move(extreme),
-                      .danger = std::move(danger),
-                      .guard = std::move(guard),
-                      .measure = std::move(measure)});
-  };
+  const CheckGroup add(checks, "samplers");
   add("cosine_edges", "random numbers 0 and 1 - 2^-24 in each coordinate", "a direction in the horizon has density 0",
       "numbers end below 1: shaders/lib/random.glsl; shaders/lib/bsdf.glsl, sample_cosine_hemisphere", measure_cosine);
   add("ward_edges", "the same for 64 pairs of alpha in both samplings", "log(0), half vectors in the plane",
