@@ -141,7 +141,7 @@ TEST_F(IntegerGraphs, ComputeWhatTheHostComputesHoweverTheyAreExecuted) {
 
 // Minutes, so it is a test of its own in tests/CMakeLists.txt, with the label `slow`.
 TEST_F(IntegerGraphs, DISABLED_ComputeWhatTheHostComputesInMany) {
-  check_all(100, 60, 16);
+  check_all(100, 25, 16);
 }
 
 // The positive control of the silence above: who leaves out the barriers of a step hears of it. Passes of one command
