@@ -35,8 +35,8 @@ PassType make_accumulate() {
   type.doc =
       "Mean over all frames since the view last changed, for pictures that become better the longer they are rendered. "
       "The sums are compensated (Neumaier 1974, Dekker 1971), so that the mean of 100000 frames is exact to the "
-      "rounding of 32-bit floats. A frame with a NaN or an infinity in a pixel is left out there. The scene should not "
-      "move.";
+      "rounding of 32-bit floats. A frame with a NaN or an infinity in a pixel is left out there; a pixel whose "
+      "history has one starts anew. The scene should not move.";
   Port radiance = image_output_like("radiance", Format::rgba32_sfloat, "radiance",
                                     "rgb: mean; a: number of frames in it that saw a surface (a above 0)");
   radiance.bypass = Bypass{"radiance", {}};

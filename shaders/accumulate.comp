@@ -40,19 +40,28 @@ struct Accumulation {
   float unknown;           // frames without an error of their own
 };
 
+const Accumulation kNoFrames = Accumulation(CompensatedSum(vec3(0.0), vec3(0.0)),
+                                            CompensatedSum(vec3(0.0), vec3(0.0)), 0.0, 0.0, 0.0);
+
 bool view_moved() {
   return frame.view_projection[0] != frame.view_projection[1] || frame.eye[0] != frame.eye[1];
 }
 
+// Sums that are no numbers would stay so for good, because add_frame then takes every frame for what made them such.
+bool is_sound(Accumulation a) {
+  return is_finite(value_of(a.sum)) && is_finite(value_of(a.spread)) && is_finite(vec3(a.frames, a.surfaces, a.unknown));
+}
+
+// A pixel whose history was spoilt starts anew.
 Accumulation read_past(ivec2 pixel) {
-  if (view_moved())
-    return Accumulation(CompensatedSum(vec3(0.0), vec3(0.0)), CompensatedSum(vec3(0.0), vec3(0.0)), 0.0, 0.0, 0.0);
+  if (view_moved()) return kNoFrames;
   vec4 sum = texelFetch(past_sum, pixel, 0);
   vec4 sum_error = texelFetch(past_sum_error, pixel, 0);
   vec4 spread = texelFetch(past_spread, pixel, 0);
-  return Accumulation(CompensatedSum(sum.rgb, sum_error.rgb),
-                      CompensatedSum(spread.rgb, texelFetch(past_spread_error, pixel, 0).rgb), sum.a, sum_error.a,
-                      spread.a);
+  Accumulation past = Accumulation(CompensatedSum(sum.rgb, sum_error.rgb),
+                                   CompensatedSum(spread.rgb, texelFetch(past_spread_error, pixel, 0).rgb), sum.a,
+                                   sum_error.a, spread.a);
+  return is_sound(past) ? past : kNoFrames;
 }
 
 vec3 mean_of(Accumulation a) { return a.frames > 0.0 ? value_of(a.sum) / a.frames : vec3(0.0); }

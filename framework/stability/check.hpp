@@ -35,7 +35,7 @@ class CheckGroup {
   std::string group_;
 };
 
-/// All checks, by group.
+/// All checks; those of one group stand together.
 [[nodiscard]] std::vector<Check> all_checks();
 
 // Each adds the checks of one group.
@@ -51,5 +51,6 @@ void add_light_checks(std::vector<Check>& checks);
 void add_source_checks(std::vector<Check>& checks);
 void add_accumulation_checks(std::vector<Check>& checks);
 void add_injection_checks(std::vector<Check>& checks);
+void add_history_checks(std::vector<Check>& checks);
 
 }  // namespace lightloom::stability

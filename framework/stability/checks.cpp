@@ -1,6 +1,22 @@
+#include <algorithm>
+#include <map>
+#include <utility>
+
 #include "framework/stability/check.hpp"
 
 namespace lightloom::stability {
+namespace {
+
+/// Groups in the order in which they first appear, each in one piece; within a group the order stays.
+std::vector<Check> by_group(std::vector<Check> checks) {
+  std::map<std::string, size_t> places;
+  for (const Check& check : checks) places.emplace(check.group, places.size());
+  std::stable_sort(checks.begin(), checks.end(),
+                   [&](const Check& a, const Check& b) { return places.at(a.group) < places.at(b.group); });
+  return checks;
+}
+
+}  // namespace
 
 void CheckGroup::operator()(std::string name, std::string extreme, std::string danger, std::string guard,
                             std::function<std::vector<Figure>(Lab&)> measure, bool slow) const {
@@ -27,7 +43,8 @@ std::vector<Check> all_checks() {
   add_source_checks(checks);
   add_accumulation_checks(checks);
   add_injection_checks(checks);
-  return checks;
+  add_history_checks(checks);
+  return by_group(std::move(checks));
 }
 
 }  // namespace lightloom::stability

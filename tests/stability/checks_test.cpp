@@ -66,6 +66,17 @@ TEST(StabilityChecks, SayWhatTheyAreAbout) {
   }
 }
 
+TEST(StabilityChecks, OfOneGroupStandTogether) {
+  std::set<std::string> seen;
+  std::string last;
+  for (const Check& check : all_checks()) {
+    if (check.group != last) {
+      EXPECT_TRUE(seen.insert(check.group).second) << check.group << " again at " << check.name;
+    }
+    last = check.group;
+  }
+}
+
 TEST(StabilityChecks, AFigureThatIsNoNumberNeverHolds) {
   for (const Relation relation : {Relation::at_most, Relation::at_least, Relation::equal})
     EXPECT_FALSE(holds({"x", std::nan(""), relation, 1, ""}));
