@@ -52,5 +52,6 @@ void add_source_checks(std::vector<Check>& checks);
 void add_accumulation_checks(std::vector<Check>& checks);
 void add_injection_checks(std::vector<Check>& checks);
 void add_history_checks(std::vector<Check>& checks);
+void add_surface_checks(std::vector<Check>& checks);
 
 }  // namespace lightloom::stability

@@ -44,6 +44,7 @@ std::vector<Check> all_checks() {
   add_accumulation_checks(checks);
   add_injection_checks(checks);
   add_history_checks(checks);
+  add_surface_checks(checks);
   return by_group(std::move(checks));
 }
 
