@@ -50,6 +50,7 @@ void add_sampler_checks(std::vector<Check>& checks);
 void add_light_checks(std::vector<Check>& checks);
 void add_source_checks(std::vector<Check>& checks);
 void add_accumulation_checks(std::vector<Check>& checks);
+void add_variance_checks(std::vector<Check>& checks);
 void add_injection_checks(std::vector<Check>& checks);
 void add_history_checks(std::vector<Check>& checks);
 void add_surface_checks(std::vector<Check>& checks);

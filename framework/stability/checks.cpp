@@ -42,6 +42,7 @@ std::vector<Check> all_checks() {
   add_light_checks(checks);
   add_source_checks(checks);
   add_accumulation_checks(checks);
+  add_variance_checks(checks);
   add_injection_checks(checks);
   add_history_checks(checks);
   add_surface_checks(checks);

@@ -98,6 +98,26 @@ std::vector<Figure> measure_sun(Lab& lab) {
   return figures;
 }
 
+/// Light of a white floor's point under a point light that is `distance` away, in 1e-4 voxels; over what arrives from
+/// straight above at a distance of 1.
+double light_beside_floor(Lab& lab, double distance) {
+  constexpr float kSide = 4;
+  scene::Scene floor =
+      make_quad_scene({{{-kSide / 2, 0, kSide / 2}, {kSide, 0, 0}, {0, 0, -kSide}}}, {white_lambertian()},
+                      look_at({0.3f, 3, 0.2f}, {0.3f, 0, 0.2f}, 0.5f, {0, 0, -1}));
+  floor.punctual.emplace_back().intensity = glm::vec3(1);
+  floor.features.punctual = true;
+  const TraceOptions options{.params = R"("paths": 1, "bounces": 0)"};
+  // The light goes over the very point that a pixel shows.
+  const image::HostImage places = trace(lab, floor, options).back().at("position");
+  constexpr uint32_t kPixel = 13;
+  const auto place = [&](uint32_t channel) { return static_cast<float>(places.at(kPixel, kPixel, 0, channel)); };
+  const double least = 1e-4 * kSide / options.resolution;
+  floor.punctual[0].position = glm::vec3(place(0), place(1) + static_cast<float>(distance * least), place(2));
+  const double light = trace(lab, floor, options).back().at("radiance").at(kPixel, kPixel, 0, 0);
+  return light * std::numbers::pi * least * least;
+}
+
 std::vector<Figure> measure_punctual(Lab& lab) {
   std::vector<Figure> figures;
   double bad = 0;
@@ -108,6 +128,9 @@ std::vector<Figure> measure_punctual(Lab& lab) {
     for (const Images& images : trace(lab, scene, kTrace)) bad += non_finite(images.at("radiance"));
   }
   figures.push_back(none("values that are not finite, light on the floor, 1e-6 m and a voxel over it", bad));
+  const double beside = light_beside_floor(lab, 0.1);
+  figures.push_back(at_most("light a tenth of the least distance over the floor, against that at it", beside, 1));
+  figures.push_back(at_least("the same, which is not lost", beside, 0.01));
   scene = only(false, false, false, true);
   const auto rendered = [&] { return trace(lab, scene, kTrace).back().at("radiance"); };
   const image::HostImage unlimited = rendered();
