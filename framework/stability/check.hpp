@@ -45,6 +45,7 @@ void add_metamorphic_checks(std::vector<Check>& checks);
 void add_random_checks(std::vector<Check>& checks);
 void add_shape_checks(std::vector<Check>& checks);
 void add_view_checks(std::vector<Check>& checks);
+void add_generator_checks(std::vector<Check>& checks);
 void add_material_checks(std::vector<Check>& checks);
 void add_sampler_checks(std::vector<Check>& checks);
 void add_light_checks(std::vector<Check>& checks);

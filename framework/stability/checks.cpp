@@ -37,6 +37,7 @@ std::vector<Check> all_checks() {
   add_view_checks(checks);
   add_metamorphic_checks(checks);
   add_random_checks(checks);
+  add_generator_checks(checks);
   add_material_checks(checks);
   add_sampler_checks(checks);
   add_light_checks(checks);

@@ -2,6 +2,8 @@
 #ifndef LIGHTLOOM_LIB_RANDOM
 #define LIGHTLOOM_LIB_RANDOM
 
+#include "lib/random_hash.glsl"
+
 // What a group of four numbers decides at one vertex of a path; a new use needs a new constant, so that no two
 // decisions share numbers.
 const uint kDimensionLight = 0u;     // which hint, which punctual light, where on the sun's disc
@@ -16,21 +18,6 @@ struct RandomKey {
   uint path;     // below 65536
 };
 
-// pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020.
-uvec4 pcg4d(uvec4 v) {
-  v = v * 1664525u + 1013904223u;
-  v.x += v.y * v.w;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  v.w += v.y * v.z;
-  v ^= v >> 16u;
-  v.x += v.y * v.w;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  v.w += v.y * v.z;
-  return v;
-}
-
 // Uniform in [0, 1 - 2^-24]: 24 bits are what a float holds, so 1 is never reached.
 vec4 uniform_floats(uvec4 bits) { return vec4(bits >> 8u) * (1.0 / 16777216.0); }
 
@@ -38,7 +25,10 @@ vec4 uniform_floats(uvec4 bits) { return vec4(bits >> 8u) * (1.0 / 16777216.0); 
 uvec4 random_bits(RandomKey key, uint bounce, uint dimension) {
   uint place = key.pixel.x | (key.pixel.y << 16u);
   uint use = key.path | (bounce << 16u) | (dimension << 24u);
-  return pcg4d(uvec4(place, key.frame, use, key.seed));
+  // The hash spreads the highest bits of a word too little: seeds 2^31 apart would have numbers that are correlated by
+  // 0.01. Folded they are not, and no two seeds fall together; those below 65536 stay what they are.
+  uint seed = key.seed ^ (key.seed >> 16u);
+  return random_hash(uvec4(place, key.frame, use, seed));
 }
 
 // Four independent uniform numbers in [0, 1).
