@@ -48,6 +48,7 @@ void add_view_checks(std::vector<Check>& checks);
 void add_generator_checks(std::vector<Check>& checks);
 void add_material_checks(std::vector<Check>& checks);
 void add_sampler_checks(std::vector<Check>& checks);
+void add_table_checks(std::vector<Check>& checks);
 void add_light_checks(std::vector<Check>& checks);
 void add_source_checks(std::vector<Check>& checks);
 void add_accumulation_checks(std::vector<Check>& checks);

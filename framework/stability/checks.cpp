@@ -40,6 +40,7 @@ std::vector<Check> all_checks() {
   add_generator_checks(checks);
   add_material_checks(checks);
   add_sampler_checks(checks);
+  add_table_checks(checks);
   add_light_checks(checks);
   add_source_checks(checks);
   add_accumulation_checks(checks);

@@ -136,23 +136,50 @@ std::vector<Figure> measure_sun(Lab& lab) {
   return figures;
 }
 
+/// The image of the sky is black but for some texels.
+scene::Scene sky_of(uint32_t width, uint32_t height, const std::vector<size_t>& white) {
+  scene::Scene scene = lit_scene(0);
+  scene.environment = {glm::vec3(1), width, height, std::vector<float>(size_t{width} * height * 3, 0.0f)};
+  for (const size_t texel : white)
+    for (size_t channel = 0; channel < 3; ++channel) scene.environment.rgb[texel * 3 + channel] = 7;
+  return scene;
+}
+
 std::vector<Figure> measure_environment(Lab& lab) {
-  const Sampled sampled = sample(lab, lit_scene(0), environment, 81, 1);
-  scene::Scene black = lit_scene(0);
-  std::fill(black.environment.rgb.begin(), black.environment.rgb.end(), 0.0f);
-  const Sampled nothing = sample(lab, black, environment, 81, 1);
-  const auto found = [&](uint32_t x, uint32_t) { return sampled.extra.at(x, 0, 0, 0) > 0; };
-  const Faults faults = count_faults(sampled, found);
-  double lost = 0, found_in_black = 0;
-  for (uint32_t x = 0; x < 81; ++x) {
-    // At the rim of a cell rounding may end in the black one beside it, and the draw is given up.
-    const bool at_a_rim = (x / 9) % 3 != 1 || x / 27 != 1;
-    if (!found(x, 0) && !at_a_rim) ++lost;
-    found_in_black += nothing.extra.at(x, 0, 0, 0);
+  struct Sky {
+    const char* what;
+    uint32_t width, height;
+    std::vector<size_t> white;
+  };
+  // Linear filtering carries the light of a texel over into those beside it.
+  const std::vector<Sky> skies = {{"first and last texel", 8, 4, {0, 31}},
+                                  {"an image of one texel", 1, 1, {0}},
+                                  {"an image of one row, its first texel", 16, 1, {0}},
+                                  {"an image of one column, its last texel", 1, 16, {15}},
+                                  {"a texel in the middle, black ones before and after", 16, 16, {8 * 16 + 8}},
+                                  {"the first texel of many", 16, 16, {0}},
+                                  {"the last texel of many", 16, 16, {255}}};
+  std::vector<Figure> figures;
+  for (const Sky& sky : skies) {
+    const Sampled sampled = sample(lab, sky_of(sky.width, sky.height, sky.white), environment, 81, 1);
+    const auto found = [&](uint32_t x, uint32_t) { return sampled.extra.at(x, 0, 0, 0) > 0; };
+    const Faults faults = count_faults(sampled, found);
+    double lost = 0;
+    for (uint32_t x = 0; x < 81; ++x) {
+      // At the rim of a cell rounding may end in the black one beside it, and the draw is given up.
+      const bool at_a_rim = (x / 9) % 3 != 1 || x / 27 != 1;
+      if (!found(x, 0) && !at_a_rim) ++lost;
+    }
+    const std::string which = std::string(sky.what) + ": ";
+    figures.push_back(none(which + "directions not of unit length", faults.directions));
+    figures.push_back(none(which + "densities not above 0 of what is found", faults.densities));
+    figures.push_back(none(which + "draws within a cell that find nothing", lost));
   }
-  return {none("directions not of unit length", faults.directions),
-          none("densities not above 0 of what is found", faults.densities),
-          none("draws within a cell that find nothing", lost), none("draws from a black image", found_in_black)};
+  const Sampled nothing = sample(lab, sky_of(8, 4, {}), environment, 81, 1);
+  double found_in_black = 0;
+  for (uint32_t x = 0; x < 81; ++x) found_in_black += nothing.extra.at(x, 0, 0, 0);
+  figures.push_back(none("draws from a black image", found_in_black));
+  return figures;
 }
 
 std::vector<Figure> measure_choice(Lab& lab) {
@@ -224,7 +251,8 @@ void add_sampler_checks(std::vector<Check>& checks) {
   add("sun_cone", "angular radius of the real sun, of 1e-5 and of 90 degrees",
       "1 - cos in 32-bit floats is 0.21 % off at the sun's size",
       "2 sin^2 of the half angle in double: framework/run/frame_state.cpp", measure_sun);
-  add("environment_edges", "the same for an image that is black but for two texels, and for a black one",
+  add("environment_edges",
+      "the same for images of one texel, row and column, black but for a texel at an end or in the middle, and black",
       "a black texel is drawn with density 0, the search runs over the end",
       "probabilities in steps of 2^-24 that end at 1: framework/scene/environment_sampler.cpp", measure_environment);
   add("punctual_choice", "one of five lights by a number next to 1", "an index past the end",
