@@ -33,13 +33,14 @@ std::string room_text(const std::filesystem::path& file, size_t needed) {
               hint);
 }
 
-/// The file under its working name; removed again unless `rename_to` succeeds.
+/// The file under its working name, which no other thread of any process uses meanwhile; removed again unless
+/// `finish` succeeds.
 class AsideFile {
  public:
   AsideFile(const std::filesystem::path& file, size_t size)
       : target_(file),
         size_(size),
-        aside_(file.parent_path() / ("." + file.filename().string() + "." + std::to_string(getpid()))) {
+        aside_(file.parent_path() / ("." + file.filename().string() + "." + std::to_string(::gettid()))) {
     descriptor_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail(target_, errno, size_);
   }

@@ -64,12 +64,12 @@ std::optional<study::BenchRun> make_run(const BenchOptions& options, const Conte
                                         const scene::Scene& scene, const CommandContext& context,
                                         Diagnostics& diagnostics) {
   const Clock::time_point start = Clock::now();
+  const run::RenderRequest request = options.picture.request(context);
   LinkOptions link = contender.changes.link_options();
   std::optional<Plan> plan = run::compile_graph(contender.graph, context.registry, link, &scene, diagnostics,
-                                                contender.changes.compile_options());
+                                                contender.changes.compile_options(), request.shaders);
   if (!plan) return std::nullopt;
   study::BenchRun run{contender.name, std::move(*plan), milliseconds_since(start), {}};
-  const run::RenderRequest request = options.picture.request(context);
   run.options.shaders = request.shaders;
   run.options.camera = request.camera;
   if (!request.camera_path.empty()) run.options.camera_path = scene::read_camera_path(request.camera_path);
@@ -95,8 +95,8 @@ std::optional<study::RayCounts> count_rays(const BenchOptions& options, const Co
   LinkOptions link = contender.changes.link_options();
   link.captures = {"*.counts"};
   Diagnostics ignored;  // said already, of the same graph
-  std::optional<Plan> plan =
-      run::compile_graph(contender.graph, context.registry, link, &scene, ignored, contender.changes.compile_options());
+  std::optional<Plan> plan = run::compile_graph(contender.graph, context.registry, link, &scene, ignored,
+                                                contender.changes.compile_options(), run.options.shaders);
   run::Executor executor(device, std::move(*plan), scene, run.options);
   return study::count_rays(executor.run_frame(options.picture.frames.first + options.warm_up));
 }

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "framework/base/text.hpp"
+#include "framework/cli/cache_option.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/messages.hpp"
 #include "framework/cli/text_layout.hpp"
@@ -29,6 +30,7 @@ struct BrdfOptions {
   std::string outgoing;
   std::string random_numbers;
   std::filesystem::path plot;
+  CacheOption cache;
   std::string device;
   bool json = false;
   bool validate = false;
@@ -167,7 +169,8 @@ ExitCode evaluate(const BrdfOptions& options, const CommandContext& context) {
   run::DirectionPair pair{direction_of(options.incoming), {}};
   pair.outgoing = options.outgoing.empty() ? run::PolarDirection{pair.incoming.theta, pair.incoming.phi + 180}
                                            : direction_of(options.outgoing);
-  run::BrdfEvaluator evaluator({options.device, options.validate});
+  run::BrdfEvaluator evaluator({options.device, options.validate},
+                               options.cache.apply_to(run::default_shader_folders()));
   Answer answer;
   answer.values = evaluator.evaluate(lobe, {&pair, 1}).front();
   answer.albedo = evaluator.albedo(lobe, {&pair.incoming, 1}).front();
@@ -217,6 +220,7 @@ void add_brdf_command(Command& program, const CommandContext& context) {
   command.option("--plot", options->plot, "Also draw the lobe and the albedo of all three models into a PNG file")
       .placeholder("FILE");
   command.flag("--json", options->json, "Print JSON");
+  options->cache.add_to(command);
   command.option("--device", options->device, "Device by index or part of its name; 'lightloom devices' lists them")
       .placeholder("NAME");
   command.flag("--validate", options->validate, "Check each Vulkan call by the validation layers (slow)");

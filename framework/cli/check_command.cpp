@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "framework/cli/cache_option.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/limit_options.hpp"
 #include "framework/cli/messages.hpp"
@@ -19,6 +20,7 @@ struct CheckOptions {
   std::vector<std::filesystem::path> graphs;
   std::filesystem::path scene;
   LimitOptions limits;
+  CacheOption cache;
   bool json = false;
 };
 
@@ -40,12 +42,13 @@ void merge(const Diagnostics& from, Diagnostics& into) {
 }
 
 /// The graph as it stands, and with each of its variants.
-Diagnostics check_graph(const std::filesystem::path& file, const scene::Scene* scene, const CommandContext& context) {
+Diagnostics check_graph(const std::filesystem::path& file, const scene::Scene* scene, const CacheOption& cache,
+                        const CommandContext& context) {
   const PassRegistry& registry = context.registry;
   Diagnostics diagnostics;
   std::optional<GraphSpec> spec;
   try {
-    spec = run::read_graph(file, registry, run::shader_folders_with(context.plugins), diagnostics);
+    spec = run::read_graph(file, registry, cache.apply_to(run::shader_folders_with(context.plugins)), diagnostics);
   } catch (const Error& error) {
     diagnostics.error("unreadable-file", {file.string(), 0, 0}, error.what(), error.hint());
     return diagnostics;
@@ -83,7 +86,7 @@ ExitCode check(const CheckOptions& options, const CommandContext& context) {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   ExitCode code = ExitCode::done;
   for (const std::filesystem::path& file : options.graphs) {
-    const Diagnostics diagnostics = check_graph(file, scene ? &*scene : nullptr, context);
+    const Diagnostics diagnostics = check_graph(file, scene ? &*scene : nullptr, options.cache, context);
     if (diagnostics.has_errors()) code = ExitCode::invalid_input;
     files.push_back({{"file", file.string()}, {"ok", !diagnostics.has_errors()}, {"problems", to_json(diagnostics)}});
     if (options.json) continue;
@@ -106,6 +109,7 @@ void add_check_command(Command& program, const CommandContext& context) {
                  "Scene to check against; a unit cube with every scene feature unless given");
   command.flag("--json", options->json, "Print JSON");
   options->limits.add_to(command);
+  options->cache.add_to(command);
   command.action([options, &context] { return check(*options, context); });
 }
 

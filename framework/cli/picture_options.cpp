@@ -43,6 +43,7 @@ void PictureOptions::add_to(Command& command) {
       .range(0, 1e6);
   group(command.option("--seed", seed, "Seed of all random numbers"));
   add_shaders_option(command, shaders);
+  cache.add_to(command);
   changes.add_to(command);
   limits.add_to(command);
 }
@@ -50,7 +51,7 @@ void PictureOptions::add_to(Command& command) {
 run::RenderRequest PictureOptions::request(const CommandContext& context) const {
   run::RenderRequest request;
   request.plugins = context.plugins;
-  request.shaders = run::shader_folders_with(context.plugins);
+  request.shaders = cache.apply_to(run::shader_folders_with(context.plugins));
   request.shaders.sources.insert(request.shaders.sources.begin(), shaders.begin(), shaders.end());
   request.graph = graph;
   request.scene = scene;

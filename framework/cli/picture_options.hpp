@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/cli/argument_parser.hpp"
+#include "framework/cli/cache_option.hpp"
 #include "framework/cli/graph_options.hpp"
 #include "framework/cli/limit_options.hpp"
 #include "framework/cli/program.hpp"
@@ -26,6 +27,7 @@ struct PictureOptions {
   double frames_per_second = 30;
   std::optional<double> time;
   std::vector<std::filesystem::path> shaders;
+  CacheOption cache;
 
   /// The argument GRAPH.
   void add_graph_to(Command& command);

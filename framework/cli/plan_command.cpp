@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "framework/base/atomic_file.hpp"
+#include "framework/cli/cache_option.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/graph_options.hpp"
 #include "framework/cli/limit_options.hpp"
@@ -28,6 +29,7 @@ struct PlanOptions {
   std::filesystem::path graph;
   std::filesystem::path scene;
   LimitOptions limits;
+  CacheOption cache;
   GraphOptions changes;
   std::string format = "text";
   std::filesystem::path out;
@@ -94,9 +96,9 @@ ExitCode print(const PlanOptions& options, const CommandContext& context) {
   const std::optional<scene::Scene> scene =
       load_optional_scene(options.scene, options.limits.load_options(), context.err);
   Diagnostics diagnostics;
-  std::optional<Plan> plan =
-      run::compile_graph(options.graph, context.registry, options.changes.link_options(), scene ? &*scene : nullptr,
-                         diagnostics, options.changes.compile_options(), run::shader_folders_with(context.plugins));
+  std::optional<Plan> plan = run::compile_graph(
+      options.graph, context.registry, options.changes.link_options(), scene ? &*scene : nullptr, diagnostics,
+      options.changes.compile_options(), options.cache.apply_to(run::shader_folders_with(context.plugins)));
   print_diagnostics(context.err, diagnostics);
   if (!plan) return exit_code_of(diagnostics);
   PlanFacts facts;
@@ -140,6 +142,7 @@ void add_plan_command(Command& program, const CommandContext& context) {
   command.option("--device", options->device, "Device of --memory and --verify, by index or part of its name")
       .placeholder("NAME");
   options->limits.add_to(command);
+  options->cache.add_to(command);
   command.action([options, &context] { return print(*options, context); });
 }
 

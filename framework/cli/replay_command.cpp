@@ -5,6 +5,7 @@
 
 #include "framework/base/interrupt.hpp"
 #include "framework/base/text.hpp"
+#include "framework/cli/cache_option.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/graph_options.hpp"
 #include "framework/cli/limit_options.hpp"
@@ -25,6 +26,7 @@ struct ReplayOptions {
   std::vector<Assignment> sets;
   std::vector<Assignment> swaps;
   std::vector<std::filesystem::path> shaders;
+  CacheOption cache;
   bool compare = false;
   uint32_t repeat = 1;
   std::filesystem::path out;
@@ -48,7 +50,7 @@ run::ReplayRequest make_request(const ReplayOptions& options, const CommandConte
   request.repeat = options.repeat;
   request.out = options.out;
   request.device = {options.device, options.validate};
-  request.shaders = run::shader_folders_with(context.plugins);
+  request.shaders = options.cache.apply_to(run::shader_folders_with(context.plugins));
   request.shaders.sources.insert(request.shaders.sources.begin(), options.shaders.begin(), options.shaders.end());
   request.plugins = context.plugins;
   request.command_line = {"lightloom"};
@@ -145,6 +147,7 @@ void add_replay_command(Command& program, const CommandContext& context, const s
       .placeholder("GLOB=TYPE");
   options->limits.add_to(command);
   add_shaders_option(command, options->shaders);
+  options->cache.add_to(command);
   command.option("--device", options->device, "Device by index or part of its name; 'lightloom devices' lists them")
       .placeholder("NAME");
   command.flag("--validate", options->validate, "Check each Vulkan call by the validation layers (slow)");

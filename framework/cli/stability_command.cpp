@@ -8,6 +8,7 @@
 #include "framework/base/file.hpp"
 #include "framework/base/interrupt.hpp"
 #include "framework/base/progress.hpp"
+#include "framework/cli/cache_option.hpp"
 #include "framework/cli/commands.hpp"
 #include "framework/cli/messages.hpp"
 #include "framework/cli/text_layout.hpp"
@@ -25,6 +26,7 @@ using stability::Outcome;
 struct StabilityOptions {
   std::vector<std::string> checks;
   std::filesystem::path out;
+  CacheOption cache;
   std::string device;
   bool validate = false;
   bool slow = false;
@@ -92,7 +94,7 @@ ExitCode measure(const StabilityOptions& options, const CommandContext& context)
   }
   const InterruptRequests interrupts;
   gpu::Device device({options.device, options.validate});
-  stability::Lab lab(device, context.registry, run::default_shader_folders());
+  stability::Lab lab(device, context.registry, options.cache.apply_to(run::default_shader_folders()));
   const bool print = !options.json && !options.markdown;
   const std::vector<Outcome> outcomes = run_all(chosen, lab, print, context);
   const stability::TableOrigin origin{device.info(), options.validate,
@@ -125,6 +127,7 @@ void add_stability_command(Command& program, const CommandContext& context) {
       .placeholder("DIR");
   command.flag("--json", options->json, "Print JSON");
   command.flag("--markdown", options->markdown, "Print the document docs/stability.md");
+  options->cache.add_to(command);
   command.option("--device", options->device, "Device by index or part of its name; 'lightloom devices' lists them")
       .placeholder("NAME");
   command.flag("--validate", options->validate, "Check each Vulkan call by the validation layers (slow)");

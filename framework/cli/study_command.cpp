@@ -93,8 +93,9 @@ ExitCode run(const StudyOptions& options, const CommandContext& context) {
   }
   const gpu::DeviceOptions device_options{options.device, false};
   const gpu::DeviceInfo device = gpu::Device(device_options).info();
-  const auto plan =
-      study::plan_study(*spec, {context.registry, device, context.plugins, options.limits.load_options()}, diagnostics);
+  const auto plan = study::plan_study(
+      *spec, {context.registry, device, context.plugins, options.limits.load_options(), !options.cache.off},
+      diagnostics);
   print_diagnostics(context.err, diagnostics);
   if (!plan) return exit_code_of(diagnostics);
   const InterruptRequests interrupts;

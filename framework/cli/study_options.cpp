@@ -189,6 +189,7 @@ void StudyOptions::add_to(Command& command) {
       .placeholder("DIR")
       .default_text("out/ and the study's name");
   limits.add_to(command);
+  cache.add_to(command);
   command.option("--jobs", jobs, "Cells rendered at the same time; more than 1 spoils the times")
       .range(1, study::kMostJobs);
   command.option("--device", device, "Device by index or part of its name").placeholder("NAME");

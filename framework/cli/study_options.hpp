@@ -7,6 +7,7 @@
 
 #include "framework/base/diagnostics.hpp"
 #include "framework/cli/argument_parser.hpp"
+#include "framework/cli/cache_option.hpp"
 #include "framework/cli/limit_options.hpp"
 #include "framework/study/study_spec.hpp"
 
@@ -17,6 +18,7 @@ struct StudyOptions {
   std::filesystem::path study;
   std::filesystem::path out;
   LimitOptions limits;
+  CacheOption cache;
   std::optional<uint32_t> jobs;
   std::string device;
   bool fresh = false;

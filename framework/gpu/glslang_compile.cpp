@@ -35,17 +35,31 @@ class Includer final : public glslang::TShader::Includer {
   IncludeResult* includeLocal(const char* header, const char*, size_t) override {
     const auto found = texts_.find(header);
     if (found == texts_.end()) return nullptr;
-    return new IncludeResult(found->first, found->second.data(), found->second.size(), nullptr);
+    // A few files that include each other twice over, without a cycle, would never come to an end.
+    if (++files_ > kMostFiles || found->second.size() > kMostShaderBytes - bytes_) {
+      too_many_ = true;
+      return nullptr;
+    }
+    bytes_ += found->second.size();
+    const std::string_view text = without_mark(found->second);
+    return new IncludeResult(found->first, text.data(), text.size(), nullptr);
   }
   /// Tried where includeLocal finds nothing; its result carries the reason.
   IncludeResult* includeSystem(const char*, const char*, size_t) override {
-    return new IncludeResult("", missing_.data(), missing_.size(), nullptr);
+    const std::string& reason = too_many_ ? kTooMany : missing_;
+    return new IncludeResult("", reason.data(), reason.size(), nullptr);
   }
   void releaseInclude(IncludeResult* result) override { delete result; }
 
  private:
+  static constexpr uint32_t kMostFiles = 10'000;
+  const std::string kTooMany = "more is included than " + std::to_string(kMostFiles) + " files or " +
+                               std::to_string(kMostShaderBytes) + " bytes: do these include each other over and over?";
   const IncludeTexts& texts_;
   std::string missing_;
+  uint64_t files_ = 0;
+  uint64_t bytes_ = 0;
+  bool too_many_ = false;
 };
 
 EShLanguage language_of(Stage stage) {
@@ -99,8 +113,9 @@ struct ParsedStage {
 void parse(ParsedStage& parsed, const ShaderSource& source, const std::string& preamble, Includer& includer) {
   const EShLanguage language = language_of(source.stage);
   parsed.shader = std::make_unique<glslang::TShader>(language);
-  parsed.text = source.text.data();
-  parsed.length = static_cast<int>(source.text.size());
+  const std::string_view text = without_mark(source.text);
+  parsed.text = text.data();
+  parsed.length = static_cast<int>(text.size());
   parsed.name = source.name.c_str();
   glslang::TShader& shader = *parsed.shader;
   shader.setStringsWithLengthsAndNames(&parsed.text, &parsed.length, &parsed.name, 1);
@@ -151,11 +166,11 @@ std::vector<SpirvModule> compile_glsl(std::span<const ShaderSource> stages, cons
                                       std::span<const std::filesystem::path> include_directories) {
   static const GlslangProcess process;
   const std::string preamble = preamble_of(defines);
-  Includer includer(includes, include_directories);
   std::vector<ParsedStage> parsed(stages.size());
   // Declared after the shaders: glslang wants the program gone before them.
   glslang::TProgram program;
   for (size_t i = 0; i < stages.size(); ++i) {
+    Includer includer(includes, include_directories);
     parse(parsed[i], stages[i], preamble, includer);
     program.addShader(parsed[i].shader.get());
   }

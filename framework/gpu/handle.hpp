@@ -39,6 +39,7 @@ using FenceHandle = Handle<VkFence, vkDestroyFence>;
 using ImageHandle = Handle<VkImage, vkDestroyImage>;
 using ImageViewHandle = Handle<VkImageView, vkDestroyImageView>;
 using MemoryHandle = Handle<VkDeviceMemory, vkFreeMemory>;
+using PipelineCacheHandle = Handle<VkPipelineCache, vkDestroyPipelineCache>;
 using PipelineHandle = Handle<VkPipeline, vkDestroyPipeline>;
 using PipelineLayoutHandle = Handle<VkPipelineLayout, vkDestroyPipelineLayout>;
 using QueryPoolHandle = Handle<VkQueryPool, vkDestroyQueryPool>;

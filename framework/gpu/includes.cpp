@@ -1,7 +1,6 @@
 #include "framework/gpu/includes.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 #include "framework/base/error.hpp"
 #include "framework/base/file.hpp"
@@ -12,6 +11,7 @@ namespace lightloom::gpu {
 namespace {
 
 constexpr std::string_view kSpace = " \t";
+constexpr size_t kDeepest = 100;  ///< files, each included by the one before
 
 std::string_view skip_space(std::string_view text) {
   const size_t start = text.find_first_not_of(kSpace);
@@ -37,12 +37,14 @@ class Collector {
   Collector(std::span<const std::filesystem::path> directories, FileContents& files)
       : directories_(directories), files_(files) {}
 
-  void follow(const std::string& name, const std::string& text) {
+  void follow(const std::string& name, std::string_view text) {
     chain_.push_back(name);
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-      const std::string included = included_name(line);
+    text = without_mark(text);
+    while (!text.empty()) {
+      const size_t end = std::min(text.find_first_of("\r\n"), text.size());
+      const std::string included = included_name(text.substr(0, end));
       if (!included.empty()) enter(included);
+      text.remove_prefix(std::min(end + 1, text.size()));
     }
     chain_.pop_back();
   }
@@ -59,9 +61,13 @@ class Collector {
                   "move what both need into a file of its own");
     }
     if (texts_.contains(name)) return;
+    if (chain_.size() > kDeepest) {
+      throw Error(ExitCode::invalid_input, "shader " + in_quotes(chain_.front()) + " includes files nested more than " +
+                                               std::to_string(kDeepest) + " deep, the last of them " + in_quotes(name));
+    }
     const std::filesystem::path file = find_file(name, directories_);
     if (file.empty()) return note_file(name, directories_, std::nullopt, files_);
-    const std::string& text = texts_.emplace(name, read_text_file(file)).first->second;
+    const std::string& text = texts_.emplace(name, read_text_file(file, kMostShaderBytes)).first->second;
     note_file(name, directories_, text, files_);
     follow(name, text);
   }
@@ -73,6 +79,12 @@ class Collector {
 };
 
 }  // namespace
+
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  return text;
+}
 
 std::filesystem::path find_file(const std::string& name, std::span<const std::filesystem::path> directories) {
   std::error_code ignored;

@@ -184,7 +184,8 @@ ShaderProgram make_program(std::vector<SpirvModule> modules) {
   return program;
 }
 
-Pipeline::Pipeline(const Device& device, const ShaderProgram& program, std::span<const ShaderValue> constants)
+Pipeline::Pipeline(const Device& device, const ShaderProgram& program, std::span<const ShaderValue> constants,
+                   VkPipelineCache cache)
     : reflection_(program.reflection) {
   if (!program.compute()) throw Error(ExitCode::run_failed, "shader " + reflection_.name + " is no compute shader");
   require_known_names(reflection_, constants);
@@ -195,13 +196,13 @@ Pipeline::Pipeline(const Device& device, const ShaderProgram& program, std::span
   info.stage = stage.create;
   info.layout = layout_.get();
   VkPipeline pipeline = VK_NULL_HANDLE;
-  check(vkCreateComputePipelines(device.get(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+  check(vkCreateComputePipelines(device.get(), cache, 1, &info, nullptr, &pipeline),
         "vkCreateComputePipelines for " + reflection_.name);
   pipeline_ = PipelineHandle(device.get(), pipeline);
 }
 
 Pipeline::Pipeline(const Device& device, const ShaderProgram& program, std::span<const ShaderValue> constants,
-                   const AttachmentFormats& formats)
+                   const AttachmentFormats& formats, VkPipelineCache cache)
     : reflection_(program.reflection), bind_point_(VK_PIPELINE_BIND_POINT_GRAPHICS) {
   if (program.modules.size() != 2) {
     throw Error(ExitCode::run_failed, "shader " + reflection_.name + " is no pair of vertex and fragment shader");
@@ -217,7 +218,7 @@ Pipeline::Pipeline(const Device& device, const ShaderProgram& program, std::span
   state.create.pStages = stages.data();
   state.create.layout = layout_.get();
   VkPipeline pipeline = VK_NULL_HANDLE;
-  check(vkCreateGraphicsPipelines(device.get(), VK_NULL_HANDLE, 1, &state.create, nullptr, &pipeline),
+  check(vkCreateGraphicsPipelines(device.get(), cache, 1, &state.create, nullptr, &pipeline),
         "vkCreateGraphicsPipelines for " + reflection_.name);
   pipeline_ = PipelineHandle(device.get(), pipeline);
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <span>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "framework/gpu/device.hpp"
+#include "framework/gpu/pipeline_file.hpp"
 #include "framework/gpu/reflection.hpp"
 #include "framework/gpu/shader_values.hpp"
 
@@ -36,11 +38,12 @@ struct AttachmentFormats {
 class Pipeline {
  public:
   /// Compute. `constants` gives specialization constants by name; those not named keep the shader's default, a name
-  /// that the shader does not have is an Error(invalid_input).
-  Pipeline(const Device& device, const ShaderProgram& program, std::span<const ShaderValue> constants);
+  /// that the shader does not have is an Error(invalid_input). `cache` is the driver's, which may be none.
+  Pipeline(const Device& device, const ShaderProgram& program, std::span<const ShaderValue> constants,
+           VkPipelineCache cache = VK_NULL_HANDLE);
   /// Graphics: a vertex and a fragment stage.
   Pipeline(const Device& device, const ShaderProgram& program, std::span<const ShaderValue> constants,
-           const AttachmentFormats& formats);
+           const AttachmentFormats& formats, VkPipelineCache cache = VK_NULL_HANDLE);
 
   [[nodiscard]] VkPipeline get() const { return pipeline_.get(); }
   [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
@@ -66,14 +69,25 @@ class Pipeline {
 /// as long as the cache lives.
 class PipelineCache {
  public:
-  explicit PipelineCache(const Device& device) : device_(device) {}
+  /// `directory`: where the driver's compiled pipelines are kept on disk; empty: nowhere.
+  explicit PipelineCache(const Device& device, const std::filesystem::path& directory = {})
+      : device_(device), file_(device, directory) {}
+  /// Saves.
+  ~PipelineCache() { save(); }
+  PipelineCache(const PipelineCache&) = delete;
+  PipelineCache& operator=(const PipelineCache&) = delete;
   const Pipeline& compute(const ShaderProgram& program, std::span<const ShaderValue> constants);
   const Pipeline& graphics(const ShaderProgram& program, std::span<const ShaderValue> constants,
                            const AttachmentFormats& formats);
   [[nodiscard]] size_t size() const { return pipelines_.size(); }
+  /// Writes to disk what was made since the last time; after a failure, in vain: PipelineFile::statistics has why.
+  void save() noexcept;
+  [[nodiscard]] const PipelineFile& file() const { return file_; }
 
  private:
   const Device& device_;
+  PipelineFile file_;
+  size_t saved_ = 0;  ///< pipelines when last saved
   std::map<std::string, std::unique_ptr<Pipeline>> pipelines_;
 };
 

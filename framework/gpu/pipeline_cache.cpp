@@ -25,7 +25,7 @@ std::string key_of(const ShaderProgram& program, std::span<const ShaderValue> co
 const Pipeline& PipelineCache::compute(const ShaderProgram& program, std::span<const ShaderValue> constants) {
   const std::string key = key_of(program, constants);
   if (const auto found = pipelines_.find(key); found != pipelines_.end()) return *found->second;
-  return *pipelines_.emplace(key, std::make_unique<Pipeline>(device_, program, constants)).first->second;
+  return *pipelines_.emplace(key, std::make_unique<Pipeline>(device_, program, constants, file_.get())).first->second;
 }
 
 const Pipeline& PipelineCache::graphics(const ShaderProgram& program, std::span<const ShaderValue> constants,
@@ -33,7 +33,14 @@ const Pipeline& PipelineCache::graphics(const ShaderProgram& program, std::span<
   std::string key = key_of(program, constants) + "|" + std::to_string(formats.depth);
   for (VkFormat format : formats.colors) key += "," + std::to_string(format);
   if (const auto found = pipelines_.find(key); found != pipelines_.end()) return *found->second;
-  return *pipelines_.emplace(key, std::make_unique<Pipeline>(device_, program, constants, formats)).first->second;
+  return *pipelines_.emplace(key, std::make_unique<Pipeline>(device_, program, constants, formats, file_.get()))
+              .first->second;
+}
+
+void PipelineCache::save() noexcept {
+  if (pipelines_.size() == saved_) return;
+  saved_ = pipelines_.size();
+  file_.save();
 }
 
 }  // namespace lightloom::gpu

@@ -43,11 +43,16 @@ ShaderSource load_shader(const std::string& file, std::span<const std::filesyste
   const Stage stage = stage_of(file);
   const std::filesystem::path path = find_file(file, directories);
   if (!path.empty()) {
-    ShaderSource source{.name = shown_name(file), .text = read_text_file(path), .stage = stage};
+    ShaderSource source{.name = shown_name(file), .text = read_text_file(path, kMostShaderBytes), .stage = stage};
     note_file(file, directories, source.text, files);
     return source;
   }
   note_file(file, directories, std::nullopt, files);
+  for (const auto& directory : directories) {
+    std::error_code ignored;
+    if (std::filesystem::exists(directory / file, ignored))
+      throw Error(ExitCode::invalid_input, "shader " + in_quotes((directory / file).string()) + " is no regular file");
+  }
   std::vector<std::string> searched;
   for (const auto& directory : directories) searched.push_back(in_quotes(directory.string()));
   throw Error(ExitCode::invalid_input, "there is no shader " + in_quotes(file),

@@ -1,11 +1,10 @@
 #include "framework/gpu/spirv_cache.hpp"
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "framework/base/atomic_file.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/file.hpp"
 #include "framework/base/hash.hpp"
 
 namespace lightloom::gpu {
@@ -15,6 +14,7 @@ namespace {
 // words and the words; at the end the hash of all before it (low, high).
 constexpr uint32_t kMagic = 0x314C4C53;
 constexpr uint32_t kSpirvMagic = 0x07230203;
+constexpr uint64_t kMostEntryBytes = uint64_t{64} << 20;
 
 uint32_t low(uint64_t value) {
   return static_cast<uint32_t>(value);
@@ -106,13 +106,14 @@ CacheKey cache_key(std::span<const ShaderSource> stages, const ShaderDefines& de
 CacheLookup read_cache(const std::filesystem::path& directory, const CacheKey& key,
                        std::span<const ShaderSource> stages) {
   std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(entry_file(directory, key), ignored);
-  if (!std::filesystem::exists(status)) return {};
-  // A pipe that stands there would let the read wait for ever.
-  if (!std::filesystem::is_regular_file(status)) return {.modules = std::nullopt, .damaged = true};
-  std::ifstream file(entry_file(directory, key), std::ios::binary);
-  if (!file) return {};
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::filesystem::path file = entry_file(directory, key);
+  if (!std::filesystem::exists(file, ignored)) return {};
+  std::string bytes;
+  try {
+    bytes = read_text_file(file, kMostEntryBytes);
+  } catch (const Error&) {
+    return {.modules = std::nullopt, .damaged = true};
+  }
   if (bytes.size() % sizeof(uint32_t) != 0) return {.modules = std::nullopt, .damaged = true};
   std::vector<uint32_t> words(bytes.size() / sizeof(uint32_t));
   if (!words.empty()) std::memcpy(words.data(), bytes.data(), bytes.size());

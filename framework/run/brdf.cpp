@@ -37,15 +37,10 @@ float unit_interval(double u) {
   return std::min(static_cast<float>(u), std::nextafter(1.0f, 0.0f));
 }
 
-gpu::ShaderCompilerOptions compiler_options() {
-  const ShaderFolders folders = default_shader_folders();
-  return {folders.sources, folders.cache};
-}
-
 }  // namespace
 
-BrdfEvaluator::BrdfEvaluator(const gpu::DeviceOptions& options)
-    : device_(options), shaders_(device_, compiler_options()) {}
+BrdfEvaluator::BrdfEvaluator(const gpu::DeviceOptions& options, const ShaderFolders& folders)
+    : device_(options), shaders_(device_, {.include_directories = folders.sources, .cache_directory = folders.cache}) {}
 
 std::vector<BrdfEvaluator::Answer> BrdfEvaluator::run(Quantity quantity, const WardLobe& lobe,
                                                       std::span<const Query> queries, uint32_t per_query) {

@@ -50,7 +50,7 @@ struct LobeSample {
 class BrdfEvaluator {
  public:
   /// Throws Error(no_device).
-  explicit BrdfEvaluator(const gpu::DeviceOptions& options);
+  explicit BrdfEvaluator(const gpu::DeviceOptions& options, const ShaderFolders& folders = default_shader_folders());
 
   [[nodiscard]] std::vector<LobeValues> evaluate(const WardLobe& lobe, std::span<const DirectionPair> pairs);
   /// The direction that two numbers in [0, 1) are mapped to.

@@ -303,6 +303,7 @@ bool Renderer::render(const RenderRequest& request, const RenderEvents& events, 
     folder.finish(std::move(record));
     broken_off_.clear();
     library_->drop_unused();
+    library_->pipelines().save();
     return true;
   } catch (const gpu::OutOfMemory& error) {
     throw with_demand(error, *graph, demand_of(*graph, scene), room);

@@ -8,7 +8,7 @@ namespace lightloom::run {
 /// Where shaders are found and where compiled ones are kept.
 struct ShaderFolders {
   std::vector<std::filesystem::path> sources;  ///< searched in order, for shaders and for their includes
-  std::filesystem::path cache;                 ///< SPIR-V cache; made if missing
+  std::filesystem::path cache;                 ///< of SPIR-V and pipelines; made if missing; empty: none
 };
 
 /// Sources: $LIGHTLOOM_SHADERS if set, else `shaders/` of the installation or of the source tree that built the

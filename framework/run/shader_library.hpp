@@ -5,7 +5,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "framework/base/file_watch.hpp"
@@ -18,8 +17,9 @@ namespace lightloom::run {
 /// Compiled shader programs by file names, and their pipelines.
 class ShaderLibrary {
  public:
-  ShaderLibrary(const gpu::Device& device, gpu::ShaderCompilerOptions options)
-      : compiler_(std::move(options)), pipelines_(device) {}
+  /// Pipelines are kept on disk in the folder of the shader cache.
+  ShaderLibrary(const gpu::Device& device, const gpu::ShaderCompilerOptions& options)
+      : compiler_(options), pipelines_(device, options.cache_directory) {}
   const gpu::ShaderProgram& program(const std::vector<std::string>& files);
   /// Where a program's shaders declare a name of their interface: "file:line".
   [[nodiscard]] std::string declaration(const std::vector<std::string>& files, std::string_view name) const {

@@ -62,6 +62,7 @@ class Planner {
         diagnostics_(diagnostics) {
     plan_.spec = spec;
     plan_.shaders = run::shader_folders_with(environment.plugins);
+    if (!environment.cache) plan_.shaders.cache.clear();
     std::vector<std::filesystem::path> libraries;
     for (const run::LoadedPlugin& plugin : environment.plugins) libraries.push_back(plugin.file);
     plan_.code_hash = code_hash(plan_.shaders.sources, libraries);

@@ -83,6 +83,7 @@ struct StudyEnvironment {
   gpu::DeviceInfo device;
   std::vector<run::LoadedPlugin> plugins = {};
   scene::LoadOptions load = {};  ///< what the files of scenes may ask for
+  bool cache = true;             ///< compiled shaders and pipelines are kept on disk
 };
 
 /// Loads the scenes, links every setting in every view and says what each cell depends on. A setting whose own graph

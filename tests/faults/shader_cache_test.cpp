@@ -80,6 +80,76 @@ TEST_F(ShaderCacheFaults, AFolderInItsPlaceOnlyCostsTime) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "a file was left behind";
 }
 
+TEST_F(ShaderCacheFaults, AnEntryOfAbsurdSizeIsNotRead) {
+  const std::vector<uint32_t> good = compile();
+  fs::resize_file(entry(), uintmax_t{1} << 40);
+  CompileStatistics statistics;
+  EXPECT_EQ(compile(&statistics), good);
+  EXPECT_EQ(statistics.rejected_cache_entries, 1u);
+  EXPECT_LT(fs::file_size(entry()), 10'000u) << "it was not replaced";
+}
+
+TEST_F(ShaderCacheFaults, AnEntryThatMayNotBeReadIsReplaced) {
+  const std::vector<uint32_t> good = compile();
+  fs::permissions(entry(), fs::perms::none);
+  CompileStatistics statistics;
+  EXPECT_EQ(compile(&statistics), good);
+  EXPECT_EQ(statistics.cache_write_failure, "");
+  // Who may read everything has used it.
+  if (::geteuid() == 0) return;
+  EXPECT_EQ(statistics.rejected_cache_entries, 1u);
+  EXPECT_EQ(compile(&statistics), good);
+  EXPECT_EQ(statistics.from_cache, 1u) << "it was not replaced";
+}
+
+TEST_F(ShaderCacheFaults, ALinkIntoNowhereIsReplaced) {
+  const std::vector<uint32_t> good = compile();
+  const fs::path file = entry();
+  fs::remove(file);
+  fs::create_symlink(folder_ / "nowhere" / "at" / "all", file);
+  EXPECT_EQ(compile(), good);
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(file)));
+}
+
+TEST_F(ShaderCacheFaults, AFolderThatCannotBeMadeOnlyCostsTime) {
+  const std::vector<uint32_t> good = compile();
+  const fs::path parent = folder_;
+  std::ofstream(parent / "file") << "in the way";
+  fs::create_directory_symlink(parent / "circle", parent / "circle");
+  for (const char* place : {"file", "file/below", "circle", "circle/below"}) {
+    folder_ = parent / place;
+    CompileStatistics statistics;
+    EXPECT_EQ(compile(&statistics), good) << place;
+    EXPECT_NE(statistics.cache_write_failure, "") << place;
+  }
+  folder_ = parent;
+  EXPECT_EQ(read_text_file(parent / "file"), "in the way");
+}
+
+TEST_F(ShaderCacheFaults, TwoThatWriteOneEntryLeaveAWholeOne) {
+  const std::vector<uint32_t> good = compile();
+  const fs::path file = entry();
+  const auto work = [&](std::string& problems) {
+    for (int i = 0; i < 50; ++i) {
+      std::error_code ignored;
+      fs::remove(file, ignored);
+      CompileStatistics statistics;
+      if (compile(&statistics) != good) problems += "other words; ";
+      problems += statistics.cache_write_failure;
+    }
+  };
+  std::array<std::string, 2> problems;
+  {
+    const std::jthread other(work, std::ref(problems[1]));
+    work(problems[0]);
+  }
+  EXPECT_EQ(problems[0] + problems[1], "");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "a file was left behind";
+  CompileStatistics statistics;
+  EXPECT_EQ(compile(&statistics), good);
+  EXPECT_EQ(statistics.from_cache, 1u);
+}
+
 TEST_F(ShaderCacheFaults, TheFolderMayGoAtAnyTime) {
   const std::vector<uint32_t> good = compile();
   fs::remove_all(folder_);

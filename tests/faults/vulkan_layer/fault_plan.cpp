@@ -12,8 +12,9 @@
 namespace lightloom::faults {
 namespace {
 
-constexpr std::array<std::pair<const char*, VkResult>, 9> kResults{{
+constexpr std::array<std::pair<const char*, VkResult>, 10> kResults{{
     {"VK_TIMEOUT", VK_TIMEOUT},
+    {"VK_INCOMPLETE", VK_INCOMPLETE},
     {"VK_ERROR_OUT_OF_HOST_MEMORY", VK_ERROR_OUT_OF_HOST_MEMORY},
     {"VK_ERROR_OUT_OF_DEVICE_MEMORY", VK_ERROR_OUT_OF_DEVICE_MEMORY},
     {"VK_ERROR_INITIALIZATION_FAILED", VK_ERROR_INITIALIZATION_FAILED},
@@ -106,6 +107,11 @@ std::optional<VkResult> FaultPlan::on_call(const std::string& function) {
 Faults FaultPlan::faults() const {
   const std::lock_guard lock(mutex_);
   return faults_;
+}
+
+void FaultPlan::add(const std::string& name, uint64_t number) {
+  const std::lock_guard lock(mutex_);
+  counts_[name] += number;
 }
 
 void FaultPlan::write_log() const {

@@ -14,12 +14,14 @@ namespace lightloom::faults {
 
 /// What the layer does to calls of one function, read from the environment variable LIGHTLOOM_FAULTS; entries are
 /// parted by ';':
-///   fail=FUNCTION:N:RESULT   the N-th call, from 1, gives RESULT (e.g. VK_ERROR_DEVICE_LOST); "N+": and every later
-///   one delay=FUNCTION:N:MS      the N-th call is held up for so long [ms]; "N+" as above heap=BYTES size and budget
-///   of every memory heap, kept to api=1.2                  version that devices tell type=discrete            type of
-///   device that devices tell, instead of CPU hide=FEATURE             feature that devices do not have log=FILE one
-///   line for each counted function, "FUNCTION calls", and for each entry that struck,
-///                            "struck ENTRY"; written when the instance goes
+/// - fail=FUNCTION:N:RESULT: the N-th call, from 1, gives RESULT (e.g. VK_ERROR_DEVICE_LOST); "N+": and every later one
+/// - delay=FUNCTION:N:MS: the N-th call is held up for so long [ms]; "N+" as above
+/// - heap=BYTES: size and budget of every memory heap, kept to
+/// - api=1.2: version that devices tell
+/// - type=discrete: type of device that devices tell, instead of CPU
+/// - hide=FEATURE: feature that devices do not have
+/// - log=FILE: one line for each counted function, "FUNCTION calls", for the bytes that pipeline caches began with,
+///   "pipeline_cache_bytes bytes", and for each entry that struck, "struck ENTRY"; written when the instance goes
 struct CallRule {
   std::string function;
   uint64_t first = 0;  ///< call, from 1
@@ -48,6 +50,8 @@ class FaultPlan {
   void load();
   /// Counts this call, waits where a delay is due, and tells the failure that is due.
   [[nodiscard]] std::optional<VkResult> on_call(const std::string& function);
+  /// Adds to a number of the log that is no count of calls.
+  void add(const std::string& name, uint64_t number);
   [[nodiscard]] Faults faults() const;
   void write_log() const;
 

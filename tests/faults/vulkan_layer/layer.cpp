@@ -125,6 +125,12 @@ void free_memory(VkDevice device, VkDeviceMemory memory, const VkAllocationCallb
   next_function<PFN_vkFreeMemory>(device, "vkFreeMemory")(device, memory, callbacks);
 }
 
+VkResult create_pipeline_cache(VkDevice device, const VkPipelineCacheCreateInfo* info,
+                               const VkAllocationCallbacks* callbacks, VkPipelineCache* cache) {
+  fault_plan().add("pipeline_cache_bytes", info->initialDataSize);
+  return Counted<"vkCreatePipelineCache", PFN_vkCreatePipelineCache>::call(device, info, callbacks, cache);
+}
+
 void cap(VkPhysicalDeviceMemoryProperties& memory) {
   const auto bytes = fault_plan().faults().heap_bytes;
   for (uint32_t heap = 0; bytes && heap < memory.memoryHeapCount; ++heap)
@@ -308,7 +314,7 @@ const std::map<std::string, PFN_vkVoidFunction>& device_functions() {
       counted<"vkCreateGraphicsPipelines", PFN_vkCreateGraphicsPipelines>(),
       counted<"vkCreateImage", PFN_vkCreateImage>(),
       counted<"vkCreateImageView", PFN_vkCreateImageView>(),
-      counted<"vkCreatePipelineCache", PFN_vkCreatePipelineCache>(),
+      {"vkCreatePipelineCache", as_void(create_pipeline_cache)},
       counted<"vkGetPipelineCacheData", PFN_vkGetPipelineCacheData>(),
       counted<"vkCreatePipelineLayout", PFN_vkCreatePipelineLayout>(),
       counted<"vkCreateQueryPool", PFN_vkCreateQueryPool>(),
