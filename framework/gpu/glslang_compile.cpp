@@ -46,14 +46,14 @@ class Includer final : public glslang::TShader::Includer {
   }
   /// Tried where includeLocal finds nothing; its result carries the reason.
   IncludeResult* includeSystem(const char*, const char*, size_t) override {
-    const std::string& reason = too_many_ ? kTooMany : missing_;
+    const std::string& reason = too_many_ ? endless_ : missing_;
     return new IncludeResult("", reason.data(), reason.size(), nullptr);
   }
   void releaseInclude(IncludeResult* result) override { delete result; }
 
  private:
   static constexpr uint32_t kMostFiles = 10'000;
-  const std::string kTooMany = "more is included than " + std::to_string(kMostFiles) + " files or " +
+  const std::string endless_ = "more is included than " + std::to_string(kMostFiles) + " files or " +
                                std::to_string(kMostShaderBytes) + " bytes: do these include each other over and over?";
   const IncludeTexts& texts_;
   std::string missing_;
