@@ -32,9 +32,8 @@ ProgressBar::ProgressBar(std::ostream& stream, bool is_terminal, std::string tas
       unit_(std::move(unit)),
       total_(std::max<uint64_t>(total, 1)),
       clock_(std::move(clock)),
-      begin_(clock_()),
-      last_draw_(begin_) {
-  if (is_terminal_) draw(0, std::nullopt, begin_);
+      last_draw_(clock_()) {
+  if (is_terminal_) draw(0, std::nullopt, last_draw_);
 }
 
 ProgressBar::~ProgressBar() {
@@ -43,13 +42,17 @@ ProgressBar::~ProgressBar() {
 
 void ProgressBar::update(uint64_t done) {
   const auto now = clock_();
+  done = std::min(done, total_);
+  if (!first_done_) {
+    first_done_ = done;
+    first_time_ = now;
+  }
   if (!due(done, now)) return;
   std::optional<std::chrono::duration<double>> left;
-  if (done > 0) {
-    const double fraction = static_cast<double>(std::min(done, total_)) / static_cast<double>(total_);
-    left = std::chrono::duration<double>(now - begin_) * (1 / fraction - 1);
-  }
-  draw(std::min(done, total_), left, now);
+  if (done > *first_done_)
+    left = std::chrono::duration<double>(now - first_time_) *
+           (static_cast<double>(total_ - done) / static_cast<double>(done - *first_done_));
+  draw(done, left, now);
 }
 
 void ProgressBar::update(uint64_t done, std::optional<std::chrono::duration<double>> left) {

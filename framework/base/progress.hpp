@@ -23,7 +23,9 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
   ~ProgressBar();
 
-  /// `done` steps are finished. The line is redrawn at most ten times a second, and for the last step.
+  /// `done` steps are finished. The line is redrawn at most ten times a second, and for the last step. The time left
+  /// comes from the steps since the first call: those before it may have been there already, and what is done once,
+  /// such as compiling, is not counted.
   void update(uint64_t done);
   /// The same with what the caller knows of the time left, which is shown instead of an estimate from `done` alone;
   /// where the caller knows nothing yet, none is shown.
@@ -40,9 +42,11 @@ class ProgressBar {
   std::string unit_;
   uint64_t total_;
   Clock clock_;
-  std::chrono::steady_clock::time_point begin_;
   std::chrono::steady_clock::time_point last_draw_;
   bool drawn_ = false;
+  /// Of the first call.
+  std::optional<uint64_t> first_done_;
+  std::chrono::steady_clock::time_point first_time_;
 };
 
 /// True if standard error is a terminal that understands cursor control.

@@ -50,7 +50,7 @@ VkAccelerationStructureGeometryKHR instances_of(const Device& device, const Buff
 
 AccelerationStructure::AccelerationStructure(const Device& device, std::span<const TriangleGeometry> geometries,
                                              Rebuilding rebuilding, const std::string& name)
-    : device_(device.get()), rebuilding_(rebuilding) {
+    : device_(device.get()), hangs_(device.ref().hangs), rebuilding_(rebuilding) {
   uint64_t triangles = 0;
   for (const TriangleGeometry& list : geometries) {
     geometries_.push_back(triangles_of(device, list));
@@ -69,6 +69,7 @@ AccelerationStructure::AccelerationStructure(const Device& device, std::span<con
 AccelerationStructure::AccelerationStructure(const Device& device, const Buffer& instances, uint32_t count,
                                              Rebuilding rebuilding, const std::string& name)
     : device_(device.get()),
+      hangs_(device.ref().hangs),
       type_(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR),
       rebuilding_(rebuilding),
       geometries_{instances_of(device, instances)},
@@ -77,6 +78,7 @@ AccelerationStructure::AccelerationStructure(const Device& device, const Buffer&
 }
 
 AccelerationStructure::~AccelerationStructure() {
+  if (*hangs_) return;
   load<PFN_vkDestroyAccelerationStructureKHR>(device_, "vkDestroyAccelerationStructureKHR")(device_, structure_,
                                                                                             nullptr);
 }

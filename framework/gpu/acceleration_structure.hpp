@@ -56,6 +56,7 @@ class AccelerationStructure {
   [[nodiscard]] VkAccelerationStructureBuildGeometryInfoKHR build_info() const;
 
   VkDevice device_ = VK_NULL_HANDLE;
+  const bool* hangs_ = nullptr;  ///< DeviceRef::hangs
   VkAccelerationStructureTypeKHR type_ = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
   Rebuilding rebuilding_ = Rebuilding::never;
   std::vector<VkAccelerationStructureGeometryKHR> geometries_;

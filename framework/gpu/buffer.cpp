@@ -36,7 +36,7 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
   info.usage = usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   VkBuffer buffer = VK_NULL_HANDLE;
   check(vkCreateBuffer(device.get(), &info, nullptr, &buffer), "vkCreateBuffer for " + owner);
-  buffer_ = BufferHandle(device.get(), buffer);
+  buffer_ = BufferHandle(device.ref(), buffer);
   device.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(buffer), name_);
 
   VkMemoryRequirements requirements{};

@@ -233,7 +233,7 @@ DescriptorAllocator::Pool DescriptorAllocator::make_pool(const Counts& at_least)
   info.pPoolSizes = sizes.data();
   VkDescriptorPool handle = VK_NULL_HANDLE;
   check(vkCreateDescriptorPool(device_.get(), &info, nullptr, &handle), "vkCreateDescriptorPool");
-  pool.handle = DescriptorPoolHandle(device_.get(), handle);
+  pool.handle = DescriptorPoolHandle(device_.ref(), handle);
   return pool;
 }
 

@@ -135,7 +135,7 @@ void Device::create_commands() {
   pool.queueFamilyIndex = queue_family_;
   VkCommandPool command_pool = VK_NULL_HANDLE;
   check(vkCreateCommandPool(device_, &pool, nullptr, &command_pool), "vkCreateCommandPool");
-  command_pool_ = CommandPoolHandle(device_, command_pool);
+  command_pool_ = CommandPoolHandle(ref(), command_pool);
 
   VkCommandBufferAllocateInfo buffer{};
   buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
@@ -148,11 +148,15 @@ void Device::create_commands() {
   fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
   VkFence fence = VK_NULL_HANDLE;
   check(vkCreateFence(device_, &fence_info, nullptr, &fence), "vkCreateFence");
-  fence_ = FenceHandle(device_, fence);
+  fence_ = FenceHandle(ref(), fence);
 }
 
 Device::~Device() {
-  // After a hang the wait would hang too; what the device still runs then dies with the process.
+  if (hangs_) {
+    // Freeing waits for the work, or pulls the memory away under it; what still runs dies with the process.
+    instance_.abandon();
+    return;
+  }
   if (!lost_) vkDeviceWaitIdle(device_);
   fence_ = {};
   command_pool_ = {};
@@ -203,7 +207,8 @@ void Device::wait_commands() {
   constexpr uint64_t kNanoseconds = 1'000'000'000;
   const uint64_t limit = patience_ == 0 ? UINT64_MAX : patience_ * kNanoseconds;
   const VkResult waited = vkWaitForFences(device_, 1, &fence, VK_TRUE, limit);
-  lost_ = lost_ || waited == VK_ERROR_DEVICE_LOST || waited == VK_TIMEOUT;
+  hangs_ = hangs_ || waited == VK_TIMEOUT;
+  lost_ = lost_ || waited == VK_ERROR_DEVICE_LOST;
   check(waited, "waiting for '" + info_.name + "'");
   if (waited == VK_TIMEOUT) {
     throw DeviceLost("device '" + info_.name + "' did not finish its work within " + std::to_string(patience_) + " s",

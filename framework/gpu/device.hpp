@@ -70,22 +70,26 @@ class Device {
   Device& operator=(const Device&) = delete;
 
   [[nodiscard]] VkDevice get() const { return device_; }
+  [[nodiscard]] DeviceRef ref() const { return {device_, &hangs_}; }
   [[nodiscard]] VkPhysicalDevice physical() const { return physical_; }
   [[nodiscard]] VkQueue queue() const { return queue_; }
   [[nodiscard]] uint32_t queue_family() const { return queue_family_; }
+  /// It was given up, see run_commands.
+  [[nodiscard]] bool hangs() const { return hangs_; }
   [[nodiscard]] const DeviceInfo& info() const { return info_; }
   /// Bits of a timestamp that mean something; 0: the queue has no timestamps.
   [[nodiscard]] uint32_t timestamp_bits() const { return timestamp_bits_; }
   [[nodiscard]] const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
 
   [[nodiscard]] bool validating() const { return instance_.validating(); }
-  /// Warnings and errors of the validation layer so far, none left out.
+  /// Warnings and errors of the validation layer so far (ValidationLog).
   [[nodiscard]] std::vector<ValidationMessage> validation_messages() const { return instance_.log().messages(); }
   void clear_validation_messages() { instance_.log().clear(); }
 
   /// Records one command buffer, submits it and waits until it is done. Not reentrant, one thread at a time.
   /// Throws DeviceLost if the device is lost, or does not finish within 120 s; the environment variable
-  /// LIGHTLOOM_DEVICE_TIMEOUT gives other seconds, 0 for no limit, which is what a CPU device has.
+  /// LIGHTLOOM_DEVICE_TIMEOUT gives other seconds, 0 for no limit, which is what a CPU device has. A device that was
+  /// given up is left as it is: neither it nor anything of it is freed before the process ends.
   void run_commands(const std::function<void(VkCommandBuffer)>& record);
   /// The two halves of run_commands, for who is still to decide what follows (CommandSession): begins the one command
   /// buffer, forgetting what an unfinished recording left in it …
@@ -115,6 +119,7 @@ class Device {
   VkQueue queue_ = VK_NULL_HANDLE;
   uint64_t patience_ = 0;  ///< for one submission [s]; 0: no limit
   bool lost_ = false;
+  bool hangs_ = false;    ///< the last submission was given up: it may run still
   bool running_ = false;  ///< the command buffer was submitted and not yet waited for
   PFN_vkSetDebugUtilsObjectNameEXT set_object_name_ = nullptr;
   CommandPoolHandle command_pool_;

@@ -6,12 +6,19 @@
 
 namespace lightloom::gpu {
 
+/// A device as its objects know it; the Device outlives them.
+struct DeviceRef {
+  VkDevice device = VK_NULL_HANDLE;
+  const bool* hangs =
+      nullptr;  ///< it did not finish its work, so nothing of it may be freed: that would crash, or wait
+};
+
 /// Owner of one Vulkan object of a device. `Destroy` is the Vulkan function that frees it.
 template <class T, auto Destroy>
 class Handle {
  public:
   Handle() = default;
-  Handle(VkDevice device, T object) : device_(device), object_(object) {}
+  Handle(const DeviceRef& device, T object) : device_(device), object_(object) {}
   Handle(Handle&& other) noexcept
       : device_(other.device_), object_(std::exchange(other.object_, static_cast<T>(VK_NULL_HANDLE))) {}
   Handle& operator=(Handle&& other) noexcept {
@@ -22,12 +29,12 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   ~Handle() {
-    if (object_ != VK_NULL_HANDLE) Destroy(device_, object_, nullptr);
+    if (object_ != VK_NULL_HANDLE && !*device_.hangs) Destroy(device_.device, object_, nullptr);
   }
   [[nodiscard]] T get() const { return object_; }
 
  private:
-  VkDevice device_ = VK_NULL_HANDLE;
+  DeviceRef device_;
   T object_ = VK_NULL_HANDLE;
 };
 

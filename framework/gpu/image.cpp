@@ -88,7 +88,7 @@ void Image::create(const Device& device) {
   const VkImageCreateInfo info = create_info(spec_);
   VkImage image = VK_NULL_HANDLE;
   check(vkCreateImage(device.get(), &info, nullptr, &image), "vkCreateImage for " + describe(spec_));
-  image_ = ImageHandle(device.get(), image);
+  image_ = ImageHandle(device.ref(), image);
   device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(image), spec_.name);
   vkGetImageMemoryRequirements(device.get(), image, &requirements_);
 }
@@ -137,7 +137,7 @@ ImageViewHandle Image::make_view(const Device& device, VkImageViewType type, uin
   VkImageView view = VK_NULL_HANDLE;
   check(vkCreateImageView(device.get(), &info, nullptr, &view), "vkCreateImageView for " + describe(spec_));
   device.set_name(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<uint64_t>(view), spec_.name);
-  return ImageViewHandle(device.get(), view);
+  return ImageViewHandle(device.ref(), view);
 }
 
 VkImageAspectFlags Image::aspect() const {

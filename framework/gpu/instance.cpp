@@ -103,17 +103,27 @@ VkInstance create_instance(bool validate, ValidationLog& log) {
 
 void ValidationLog::add(ValidationMessage message) {
   const std::lock_guard lock(mutex_);
-  messages_.push_back(std::move(message));
+  if (messages_.size() < kMostMessages) {
+    messages_.push_back(std::move(message));
+    return;
+  }
+  ++left_out_;
+  error_left_out_ = error_left_out_ || message.error;
 }
 
 void ValidationLog::clear() {
   const std::lock_guard lock(mutex_);
   messages_.clear();
+  left_out_ = 0;
+  error_left_out_ = false;
 }
 
 std::vector<ValidationMessage> ValidationLog::messages() const {
   const std::lock_guard lock(mutex_);
-  return messages_;
+  std::vector<ValidationMessage> messages = messages_;
+  if (left_out_ > 0)
+    messages.push_back({error_left_out_, "more", "and " + std::to_string(left_out_) + " more messages, not kept"});
+  return messages;
 }
 
 Instance::Instance(bool validate) : log_(std::make_unique<ValidationLog>()) {
@@ -129,7 +139,13 @@ Instance::Instance(bool validate) : log_(std::make_unique<ValidationLog>()) {
   }
 }
 
+void Instance::abandon() {
+  instance_ = VK_NULL_HANDLE;
+  static_cast<void>(log_.release());  // the messenger still writes to it
+}
+
 Instance::~Instance() {
+  if (instance_ == VK_NULL_HANDLE) return;
   if (messenger_ != VK_NULL_HANDLE) {
     const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));

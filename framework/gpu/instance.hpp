@@ -16,9 +16,12 @@ struct ValidationMessage {
   std::string text;  ///< whole text of the layer
 };
 
-/// Collects messages from any thread.
+/// Collects messages from any thread: the first kMostMessages, and then one that says how many more there were, so that
+/// a long run cannot fill memory.
 class ValidationLog {
  public:
+  static constexpr size_t kMostMessages = 256;
+
   void add(ValidationMessage message);
   void clear();
   [[nodiscard]] std::vector<ValidationMessage> messages() const;
@@ -26,6 +29,8 @@ class ValidationLog {
  private:
   mutable std::mutex mutex_;
   std::vector<ValidationMessage> messages_;
+  uint64_t left_out_ = 0;
+  bool error_left_out_ = false;
 };
 
 /// A Vulkan 1.3 instance without any window-system extension; with validation if asked.
@@ -34,6 +39,8 @@ class Instance {
   /// Throws Error(no_device): no Vulkan driver, or `validate` without the validation layer.
   explicit Instance(bool validate);
   ~Instance();
+  /// Leaves it as it is, with all that it made, until the process ends.
+  void abandon();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 

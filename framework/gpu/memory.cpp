@@ -115,7 +115,7 @@ MemoryHandle allocate(const Device& device, const VkMemoryRequirements& requirem
                       bytes_text(heap.size) + ")");
   }
   check(result, "vkAllocateMemory for " + owner);
-  return MemoryHandle(device.get(), memory);
+  return MemoryHandle(device.ref(), memory);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ struct StageInfo {
     info.pCode = spirv.words.data();
     VkShaderModule created = VK_NULL_HANDLE;
     check(vkCreateShaderModule(device.get(), &info, nullptr, &created), "vkCreateShaderModule for " + spirv.name);
-    module = ShaderModuleHandle(device.get(), created);
+    module = ShaderModuleHandle(device.ref(), created);
 
     create.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     create.stage = stage_flag(spirv.stage);
@@ -165,7 +165,7 @@ DescriptorSetLayoutHandle make_set_layout(const Device& device, const Reflection
   VkDescriptorSetLayout layout = VK_NULL_HANDLE;
   check(vkCreateDescriptorSetLayout(device.get(), &info, nullptr, &layout),
         "vkCreateDescriptorSetLayout for " + reflection.name);
-  return DescriptorSetLayoutHandle(device.get(), layout);
+  return DescriptorSetLayoutHandle(device.ref(), layout);
 }
 
 }  // namespace
@@ -198,7 +198,7 @@ Pipeline::Pipeline(const Device& device, const ShaderProgram& program, std::span
   VkPipeline pipeline = VK_NULL_HANDLE;
   check(vkCreateComputePipelines(device.get(), cache, 1, &info, nullptr, &pipeline),
         "vkCreateComputePipelines for " + reflection_.name);
-  pipeline_ = PipelineHandle(device.get(), pipeline);
+  pipeline_ = PipelineHandle(device.ref(), pipeline);
 }
 
 Pipeline::Pipeline(const Device& device, const ShaderProgram& program, std::span<const ShaderValue> constants,
@@ -220,7 +220,7 @@ Pipeline::Pipeline(const Device& device, const ShaderProgram& program, std::span
   VkPipeline pipeline = VK_NULL_HANDLE;
   check(vkCreateGraphicsPipelines(device.get(), cache, 1, &state.create, nullptr, &pipeline),
         "vkCreateGraphicsPipelines for " + reflection_.name);
-  pipeline_ = PipelineHandle(device.get(), pipeline);
+  pipeline_ = PipelineHandle(device.ref(), pipeline);
 }
 
 void Pipeline::create_layouts(const Device& device) {
@@ -243,7 +243,7 @@ void Pipeline::create_layouts(const Device& device) {
   VkPipelineLayout layout = VK_NULL_HANDLE;
   check(vkCreatePipelineLayout(device.get(), &info, nullptr, &layout),
         "vkCreatePipelineLayout for " + reflection_.name);
-  layout_ = PipelineLayoutHandle(device.get(), layout);
+  layout_ = PipelineLayoutHandle(device.ref(), layout);
 }
 
 void Pipeline::bind(VkCommandBuffer commands, VkDescriptorSet set, std::span<const std::byte> push_constants) const {

@@ -97,7 +97,7 @@ std::string_view decode_pipeline_file(std::string_view bytes, const PipelineFile
   return data;
 }
 
-PipelineFile::PipelineFile(const Device& device, const fs::path& directory) : device_(device.get()) {
+PipelineFile::PipelineFile(const Device& device, const fs::path& directory) : device_(device.ref()) {
   if (directory.empty()) return;
   owner_ = pipeline_file_owner(device);
   Hasher name;
@@ -128,7 +128,7 @@ void PipelineFile::create(std::string_view data) {
   info.initialDataSize = data.size();
   info.pInitialData = data.data();
   VkPipelineCache cache = VK_NULL_HANDLE;
-  check(vkCreatePipelineCache(device_, &info, nullptr, &cache), "vkCreatePipelineCache");
+  check(vkCreatePipelineCache(device_.device, &info, nullptr, &cache), "vkCreatePipelineCache");
   cache_ = PipelineCacheHandle(device_, cache);
   statistics_.loaded_bytes = data.size();
   hash_on_disk_ = data.empty() ? 0 : hash_text(data);
@@ -136,9 +136,9 @@ void PipelineFile::create(std::string_view data) {
 
 std::string PipelineFile::driver_data() const {
   size_t size = 0;
-  check(vkGetPipelineCacheData(device_, cache_.get(), &size, nullptr), "vkGetPipelineCacheData");
+  check(vkGetPipelineCacheData(device_.device, cache_.get(), &size, nullptr), "vkGetPipelineCacheData");
   std::string data(size, '\0');
-  const VkResult result = vkGetPipelineCacheData(device_, cache_.get(), &size, data.data());
+  const VkResult result = vkGetPipelineCacheData(device_.device, cache_.get(), &size, data.data());
   check(result, "vkGetPipelineCacheData");
   if (result == VK_INCOMPLETE) return {};
   data.resize(size);

@@ -53,7 +53,7 @@ class PipelineFile {
   void create(std::string_view data);
   [[nodiscard]] std::string driver_data() const;
 
-  VkDevice device_ = VK_NULL_HANDLE;
+  DeviceRef device_;
   PipelineFileOwner owner_;
   std::filesystem::path file_;
   PipelineCacheHandle cache_;

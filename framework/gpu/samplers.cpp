@@ -17,7 +17,7 @@ SamplerHandle make_sampler(const Device& device, VkSamplerAddressMode u, VkSampl
   info.maxLod = mipmaps ? VK_LOD_CLAMP_NONE : 0.0f;
   VkSampler sampler = VK_NULL_HANDLE;
   check(vkCreateSampler(device.get(), &info, nullptr, &sampler), "vkCreateSampler");
-  return SamplerHandle(device.get(), sampler);
+  return SamplerHandle(device.ref(), sampler);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ TimestampPool::TimestampPool(const Device& device, uint32_t count) : device_(dev
   info.queryCount = count;
   VkQueryPool pool = VK_NULL_HANDLE;
   check(vkCreateQueryPool(device.get(), &info, nullptr, &pool), "vkCreateQueryPool");
-  pool_ = QueryPoolHandle(device.get(), pool);
+  pool_ = QueryPoolHandle(device.ref(), pool);
 }
 
 void TimestampPool::reset(VkCommandBuffer commands) const {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "framework/base/background_jobs.hpp"
+#include "framework/base/error.hpp"
 #include "framework/base/interrupt.hpp"
 #include "framework/run/checkpoint.hpp"
 #include "framework/run/lost_frame.hpp"
@@ -28,14 +29,24 @@ class FrameLoop {
     try {
       run_frames();
     } catch (const gpu::DeviceLost& lost) {
-      // What the device had finished before is written.
-      writing_.finish();
+      write_what_was_finished(lost);
       throw with_kept(lost, kept());
     }
     writing_.finish();
   }
 
  private:
+  /// What the device had finished before it was lost. That it was lost is said first, also where this fails.
+  void write_what_was_finished(const gpu::DeviceLost& lost) {
+    try {
+      writing_.finish();
+    } catch (const Error& error) {
+      throw gpu::DeviceLost(
+          std::string(lost.what()) + "; the frames before are not all written either: " + error.what(),
+          error.hint().empty() ? lost.hint() : error.hint());
+    }
+  }
+
   void run_frames() {
     if (progress_.frames() < options_.total) start();
     while (progress_.frames() < options_.total) {

@@ -17,7 +17,8 @@ std::string under_way(const LostFrame& frame) {
         (frame.written->at(2 * pass) ? "in the pass " : "before the pass ") + in_quotes(frame.passes[pass]);
     return done.empty() ? where : where + ", after " + join(done, ", ");
   }
-  return "after its last pass";
+  // Some drivers note the time of a pass when they take it on.
+  return "in or after its last pass";
 }
 
 }  // namespace

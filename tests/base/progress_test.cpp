@@ -25,10 +25,25 @@ TEST(ProgressBar, shows_task_count_share_and_time_left) {
   std::ostringstream stream;
   HandClock clock;
   ProgressBar bar(stream, true, "render", "frames", 16, clock.reading());
-  clock.now += seconds(36);
+  clock.now += seconds(100);  // shaders are compiled
+  bar.update(1);
+  clock.now += seconds(33);
   stream.str("");
   bar.update(12);
   EXPECT_EQ(stream.str(), "\r\x1b[Krender  12/16 frames  ███████████████       75%  0:12 left");
+}
+
+TEST(ProgressBar, steps_that_were_there_already_say_nothing_of_the_time_left) {
+  std::ostringstream stream;
+  HandClock clock;
+  ProgressBar bar(stream, true, "render", "frames", 1000, clock.reading());
+  clock.now += seconds(10);
+  bar.update(901);
+  EXPECT_THAT(stream.str(), AllOf(HasSubstr("901/1000"), Not(HasSubstr("left"))));
+  clock.now += seconds(10);
+  bar.update(911);
+  EXPECT_THAT(stream.str(), HasSubstr("911/1000 frames"));
+  EXPECT_THAT(stream.str(), HasSubstr("1:29 left"));
 }
 
 TEST(ProgressBar, writes_nothing_where_there_is_no_terminal) {

@@ -45,12 +45,15 @@ class FaultTest : public ProgramTest {
   /// Renders `frames` frames of the tiny graph; returns the exit code. `faults` as in fault_plan.hpp.
   int render(const std::string& faults, const std::string& out, uint32_t frames = 2,
              const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments{"render",   (folder_ / "tiny.json").string(),
-                                       "--scene",  (source_dir() / "samples/scenes/atrium.scene.json").string(),
-                                       "--frames", "0.." + std::to_string(frames - 1),
-                                       "--out",    (folder_ / out).string()};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_with(faults, arguments);
+    std::vector<std::string> all = arguments(out, frames);
+    all.insert(all.end(), more.begin(), more.end());
+    return run_with(faults, all);
+  }
+  [[nodiscard]] std::vector<std::string> arguments(const std::string& out, uint32_t frames) const {
+    return {"render",   (folder_ / "tiny.json").string(),
+            "--scene",  (source_dir() / "samples/scenes/atrium.scene.json").string(),
+            "--frames", "0.." + std::to_string(frames - 1),
+            "--out",    (folder_ / out).string()};
   }
 
   int run_with(const std::string& faults, const std::vector<std::string>& arguments) {

@@ -56,6 +56,17 @@ TEST(Validation, ReportsAHazardWhereABarrierIsMissing) {
   EXPECT_THAT(device.validation_messages(), IsEmpty());
 }
 
+TEST(Validation, ManyMessagesAreCounted) {
+  ValidationLog log;
+  for (int i = 0; i < 1000; ++i) log.add({i == 999, "id", "text"});
+  const std::vector<ValidationMessage> messages = log.messages();
+  ASSERT_EQ(messages.size(), ValidationLog::kMostMessages + 1);
+  EXPECT_EQ(messages.back().text, "and 744 more messages, not kept");
+  EXPECT_TRUE(messages.back().error);
+  log.clear();
+  EXPECT_THAT(log.messages(), IsEmpty());
+}
+
 TEST(Validation, ReportsAMisuseOfTheApi) {
   Device device({.name = "", .validate = true});
   const Buffer buffer(device, 16, 0, MemoryKind::device, "sixteen bytes");

@@ -25,5 +25,9 @@ int main(int argc, char** argv) {
     return static_cast<int>(error.code());
   }
   const cli::CommandContext context{std::cout, std::cerr, standard_error_is_terminal(), registry, plugins};
-  return static_cast<int>(cli::run_program(arguments.rest, context));
+  const ExitCode code = cli::run_program(arguments.rest, context);
+  std::cout.flush();
+  std::cerr.flush();
+  // Not by return: what drivers do at the end of a process would wait for a device that hangs.
+  std::_Exit(static_cast<int>(code));
 }
