@@ -50,10 +50,15 @@ TEST(BackgroundJobs, NoMoreThanThereIsRoomFor) {
 
 TEST(BackgroundJobs, AFailureIsThrownWhereJobsAreAddedAndDropsTheRest) {
   std::atomic<int> done{0};
+  std::promise<void> gate;
   BackgroundJobs jobs(8);
-  jobs.add([&] { ++done; });
+  jobs.add([&] {
+    gate.get_future().wait();
+    ++done;
+  });
   jobs.add([] { throw std::runtime_error("disk full"); });
   jobs.add([&] { ++done; });
+  gate.set_value();  // not before: to add behind a failure throws
   EXPECT_THROW(jobs.finish(), std::runtime_error);
   EXPECT_THROW(jobs.wait_for_room(), std::runtime_error);
   EXPECT_THROW(jobs.add([&] { ++done; }), std::runtime_error);
