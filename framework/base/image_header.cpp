@@ -173,7 +173,8 @@ struct ExrPart {
   uint64_t tile_width = 0, tile_height = 0;
 };
 
-uint64_t count_channels(ByteReader reader) {
+/// Skips a list of channels; their number.
+uint64_t count_channels(ByteReader& reader) {
   uint64_t channels = 0;
   while (!reader.failed() && !reader.text().empty()) {
     reader.skip(16);
@@ -182,12 +183,49 @@ uint64_t count_channels(ByteReader reader) {
   return channels;
 }
 
+/// An attribute's type whose values have one size [bytes].
+struct ExrType {
+  std::string_view name;
+  uint32_t size;
+};
+constexpr std::array kExrTypes = {ExrType{"box2i", 16},      ExrType{"box2f", 16},   ExrType{"chromaticities", 32},
+                                  ExrType{"compression", 1}, ExrType{"double", 8},   ExrType{"envmap", 1},
+                                  ExrType{"float", 4},       ExrType{"int", 4},      ExrType{"keycode", 28},
+                                  ExrType{"lineOrder", 1},   ExrType{"m33f", 36},    ExrType{"m33d", 72},
+                                  ExrType{"m44f", 64},       ExrType{"m44d", 128},   ExrType{"rational", 8},
+                                  ExrType{"tiledesc", 9},    ExrType{"timecode", 8}, ExrType{"v2i", 8},
+                                  ExrType{"v2f", 8},         ExrType{"v2d", 16},     ExrType{"v3i", 12},
+                                  ExrType{"v3f", 12},        ExrType{"v3d", 24},     ExrType{"deepImageState", 1}};
+
+/// Does a value of this type take the `size` bytes that the file says? OpenEXR reads as many as the type has, whatever
+/// the size, and what comes behind is then another attribute to it than to us.
+bool fits_its_size(std::string_view type, uint32_t size, ByteReader value) {
+  const size_t before = value.left();
+  const auto fixed = std::find_if(kExrTypes.begin(), kExrTypes.end(), [&](const ExrType& t) { return t.name == type; });
+  if (fixed != kExrTypes.end()) return size == fixed->size;
+  if (type == "chlist") {
+    static_cast<void>(count_channels(value));
+    return !value.failed() && before - value.left() == size;
+  }
+  if (type == "preview") {
+    const uint64_t width = value.little_endian(), height = value.little_endian();
+    return multiply_saturated(multiply_saturated(width, height), 4) == uint64_t{size} - 8 && size >= 8;
+  }
+  if (type == "stringvector") {
+    while (!value.failed() && before - value.left() < size) value.skip(value.little_endian());
+    return !value.failed() && before - value.left() == size;
+  }
+  // Deflate makes data at most 1032 times smaller.
+  if (type == "idmanifest") return size >= 4 && value.little_endian() <= uint64_t{size} * 1032;
+  return true;
+}
+
 /// Attributes up to the empty name that ends them; false where they are broken.
 bool read_exr_part(ByteReader& reader, ExrPart& part) {
   for (std::string_view name = reader.text(); !name.empty(); name = reader.text()) {
-    reader.text();
+    const std::string_view type = reader.text();
     const uint32_t size = reader.little_endian();
-    if (reader.failed() || size > reader.left()) return false;
+    if (reader.failed() || size > reader.left() || !fits_its_size(type, size, reader)) return false;
     ByteReader value = reader;
     if (name == "dataWindow") {
       std::array<int32_t, 4> box{};

@@ -168,15 +168,17 @@ TEST_F(Claims, OfHugeTextures) {
   expect_image_refused(scans, "has 5000 scans", "jpeg_scans");
 }
 
-std::string exr(int32_t right, int32_t bottom) {
-  const auto u32 = [](uint32_t value) {
-    std::string text;
-    for (uint32_t k = 0; k < 4; ++k) text += static_cast<char>(value >> (8 * k) & 255u);
-    return text;
-  };
-  const auto attribute = [&](const std::string& name, const std::string& type, const std::string& value) {
-    return name + '\0' + type + '\0' + u32(static_cast<uint32_t>(value.size())) + value;
-  };
+std::string u32(uint32_t value) {
+  std::string text;
+  for (uint32_t k = 0; k < 4; ++k) text += static_cast<char>(value >> (8 * k) & 255u);
+  return text;
+}
+
+std::string attribute(const std::string& name, const std::string& type, const std::string& value) {
+  return name + '\0' + type + '\0' + u32(static_cast<uint32_t>(value.size())) + value;
+}
+
+std::string exr(int32_t right, int32_t bottom, const std::string& more = {}) {
   std::string channels;
   for (const char* name : {"B", "G", "R"}) channels += name + std::string(1, '\0') + u32(1) + u32(0) + u32(1) + u32(1);
   const std::string box = u32(0) + u32(0) + u32(static_cast<uint32_t>(right)) + u32(static_cast<uint32_t>(bottom));
@@ -185,7 +187,7 @@ std::string exr(int32_t right, int32_t bottom) {
          attribute("displayWindow", "box2i", box) + attribute("lineOrder", "lineOrder", std::string(1, '\0')) +
          attribute("pixelAspectRatio", "float", u32(0x3F800000u)) +
          attribute("screenWindowCenter", "v2f", u32(0) + u32(0)) +
-         attribute("screenWindowWidth", "float", u32(0x3F800000u)) + '\0';
+         attribute("screenWindowWidth", "float", u32(0x3F800000u)) + more + '\0';
 }
 
 TEST_F(Claims, OfHugeEnvironments) {
@@ -197,6 +199,13 @@ TEST_F(Claims, OfHugeEnvironments) {
   expect_environment_refused(exr(2147483647, 2147483647), "(a side) has 2147483648 texels", "image_side");
   expect_environment_refused(exr(-2, 5), "broken header", "");
   expect_environment_refused(exr(12000, 12000), "has 144024001 texels", "float_texels");
+  // OpenEXR reads as much as the type says, not as the size does, and allocates what it finds behind.
+  const std::string channel = "A" + std::string(1, '\0') + u32(1) + u32(0) + u32(1) + u32(1);
+  for (const std::string& lie :
+       {attribute("more", "chlist", channel), attribute("window", "box2i", u32(0) + u32(0)),
+        attribute("small", "preview", u32(1u << 15) + u32(1u << 15)), attribute("small", "preview", u32(1)),
+        attribute("names", "stringvector", u32(0x7FFFFFFFu)), attribute("ids", "idmanifest", u32(0x7FFFFFFFu))})
+    expect_environment_refused(exr(3, 3, lie), "broken header", "");
   expect_environment_refused("II*\0whatever", "is not a PNG, JPEG, Radiance HDR or OpenEXR file", "");
 }
 
