@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# run.sh SOURCE FOLDER TARGET SECONDS: builds a fuzz target in FOLDER, tries every file of its corpus, then spoilt ones
-# for so long, or as many as a slow machine tries in that time: the same ones everywhere. What it finds is left in FOLDER/found; new inputs that reach further in FOLDER/corpus.
+# run.sh SOURCE FOLDER TARGET SECONDS: builds a fuzz target in FOLDER, tries every file of its corpus, then spoilt ones:
+# the same ones on every machine, 400 a second, or as many as a slow machine tries in that time. What it finds is left in
+# FOLDER/found; new inputs that reach further in FOLDER/corpus.
 set -euo pipefail
 source=$1
 folder=$2
