@@ -15,9 +15,6 @@ const uint kFaceWeightLimit = 4095u;
 // Sums of face_emittance are in whole numbers of 1/512, which hold 8 million faces.
 const float kFacePowerUnit = 512.0;
 
-// In place of a column's first face.
-const uint kNoFaces = 0xFFFFFFFFu;
-
 ivec2 face_texel(uint index) { return ivec2(int(index) % kFaceRow, int(index) / kFaceRow); }
 
 // Faces 0 to 5: -x, +x, -y, +y, -z, +z.

@@ -2,6 +2,7 @@
 
 #include "framework/graph/voxel_box.hpp"
 #include "passes/distance_transform.hpp"
+#include "passes/emissive_faces.hpp"
 #include "passes/voxel_merge.hpp"
 #include "passes/voxelize.hpp"
 
@@ -72,7 +73,7 @@ TEST(VoxelUpdate, MergeTouchesOnlyTheBoxes) {
 }
 
 TEST(VoxelUpdate, NothingMovedMeansNothingToDo) {
-  for (const PassType& type : {make_voxelize(), make_voxel_merge(), make_distance_transform()}) {
+  for (const PassType& type : {make_voxelize(), make_voxel_merge(), make_distance_transform(), make_emissive_faces()}) {
     Notebook notes(type, {}, true);
     type.record(notes);
     EXPECT_TRUE(notes.dispatches.empty() && notes.cleared.empty() && notes.draws.empty()) << type.name;
@@ -102,6 +103,19 @@ TEST(VoxelUpdate, DistancesReachTheRadiusAlongTheAxesPassedSoFar) {
   EXPECT_EQ(
       notes.boxes("distance_transform.comp"),
       (std::vector<VoxelBox>{{{17, 10, 30}, {24, 12, 38}}, {{17, 7, 30}, {24, 15, 38}}, {{17, 7, 27}, {24, 15, 39}}}));
+}
+
+TEST(VoxelUpdate, FacesAreCountedInTheColumnsAroundWhatMoved) {
+  const PassType type = make_emissive_faces();
+  Notebook notes(type, {{{20, 10, 30}, {21, 12, 38}}}, true);
+  type.record(notes);
+  EXPECT_TRUE(notes.cleared.empty());
+  EXPECT_EQ(notes.boxes("emissive_faces.comp"), (std::vector<VoxelBox>{{{19, 9, 29}, {22, 13, 39}}}));
+  EXPECT_EQ(notes.dispatches.at(0).threads, (Extent3{4, 5, 1}));
+  Notebook forgotten(type, kTwo, false);
+  type.record(forgotten);
+  EXPECT_EQ(forgotten.cleared.size(), 6u);
+  EXPECT_EQ(forgotten.boxes("emissive_faces.comp"), (std::vector<VoxelBox>{{{0, 0, 0}, {63, 47, 39}}}));
 }
 
 TEST(VoxelUpdate, DynamicVoxelizationClearsAndResolvesOnlyTheBoxes) {
