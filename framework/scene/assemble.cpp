@@ -192,6 +192,8 @@ class Assembler {
     Clip clip;
     clip.duration = asset.animations[static_cast<size_t>(chosen)].duration;
     clip.offset = instance.time_offset;
+    clip.node_count = static_cast<int32_t>(asset.nodes.size()) + 1;
+    clip.first_node = static_cast<int32_t>(source_->nodes.size()) - clip.node_count;
     for (const Track& track : asset.animations[static_cast<size_t>(chosen)].tracks)
       animation_values_ += track.times.size() + track.values.size();
     require(&Limits::animation_values,

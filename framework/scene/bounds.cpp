@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "framework/scene/basis.hpp"
@@ -42,30 +43,38 @@ std::set<double> sample_times(const Clip& clip, size_t vertices) {
   return times;
 }
 
-// A clip moves nodes of one instance only, so clips are looked at one by one: the box of a draw over the samples of a
-// clip that does not move it is one of its poses and does no harm.
-void add_clip_poses(const Scene& scene, const Clip& clip, const std::set<double>& times, std::vector<Box>& boxes) {
+size_t vertex_count(const SceneSource& source) {
+  return std::accumulate(source.draws.begin(), source.draws.end(), size_t{0},
+                         [](size_t sum, const Draw& draw) { return sum + draw.primitive->vertices.size(); });
+}
+
+void add_poses(const SceneSource& part, const std::set<double>& times, std::vector<Box>& boxes) {
+  const size_t first = boxes.size();
+  boxes.resize(first + part.draws.size());
   std::vector<Vertex> posed;
   for (const double time : times) {
-    const NodeState state = evaluate_nodes(*scene.source, time - clip.offset);
-    for (size_t d = 0; d < scene.source->draws.size(); ++d) {
-      const Draw& draw = scene.source->draws[d];
+    const NodeState state = evaluate_nodes(part, time - part.clips.front().offset);
+    for (size_t d = 0; d < part.draws.size(); ++d) {
+      const Draw& draw = part.draws[d];
       posed.resize(draw.primitive->vertices.size());
-      pose_vertices(*scene.source, draw, state, posed);
-      for (const Vertex& vertex : posed) boxes[d].add(vertex.position);
+      pose_vertices(part, draw, state, posed);
+      for (const Vertex& vertex : posed) boxes[first + d].add(vertex.position);
     }
   }
 }
 
+// A clip moves nodes of one instance only, so instances are looked at one by one, each for itself.
 Box bounds_of_moving(const Scene& scene, const Limits& limits) {
-  std::vector<Box> boxes(scene.source->draws.size());
   const size_t vertices = scene.vertices.size() - scene.static_vertex_count;
+  std::vector<Box> boxes;
   uint64_t posed = 0;
   for (const Clip& clip : scene.source->clips) {
-    posed += sample_times(clip, vertices).size() * (vertices + scene.source->nodes.size());
+    const SceneSource part = part_of_clip(*scene.source, clip);
+    const std::set<double> times = sample_times(clip, vertices);
+    posed += times.size() * (vertex_count(part) + part.nodes.size());
     require_within(limits, &Limits::posed_elements, scene.file.string() + ": the animation", posed);
+    add_poses(part, times, boxes);
   }
-  for (const Clip& clip : scene.source->clips) add_clip_poses(scene, clip, sample_times(clip, vertices), boxes);
   Box all;
   for (const Box& box : boxes) {
     if (box.empty()) continue;

@@ -130,7 +130,9 @@ EmitterSampler::EmitterSampler(const Scene& scene, const EmissionTable& table) :
         --emitting;
     }
     emitter.emitting_fraction = static_cast<float>(emitting) / kFractionSamples;
-    if (emitting > 0) emitters_.push_back(emitter);
+    if (emitting == 0) continue;
+    emitters_.push_back(emitter);
+    moving_ = moving_ || t >= scene.static_triangle_count;
   }
   update(scene, std::span(scene.vertices).subspan(scene.static_vertex_count));
 }
@@ -140,6 +142,7 @@ void EmitterSampler::update(const Scene& scene, std::span<const Vertex> dynamic_
     return vertex < scene.static_vertex_count ? scene.vertices[vertex].position
                                               : dynamic_vertices[vertex - scene.static_vertex_count].position;
   };
+  if (!moving_ && !cumulative_.empty()) return;
   cumulative_.clear();
   areas_.assign(entries_.size(), 0);
   double total = 0;

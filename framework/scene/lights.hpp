@@ -51,7 +51,7 @@ class EmitterSampler {
  public:
   EmitterSampler(const Scene& scene, const EmissionTable& table);
 
-  /// Takes over the positions of a pose; `dynamic_vertices` as Pose::dynamic_vertices.
+  /// Takes over the positions of a pose, where emitters move; `dynamic_vertices` as Pose::dynamic_vertices.
   void update(const Scene& scene, std::span<const Vertex> dynamic_vertices);
 
   /// Density of the points per area of an emitting surface [m⁻²]; 0 for entry 0 and where nothing emits.
@@ -77,6 +77,7 @@ class EmitterSampler {
 
   std::vector<EmissionEntry> entries_;
   std::vector<Emitter> emitters_;
+  bool moving_ = false;             ///< any of them; else one update is enough
   std::vector<double> areas_;       ///< by entry [m²]
   std::vector<double> cumulative_;  ///< power up to and including each emitter
 };

@@ -42,8 +42,10 @@ struct Track {
 /// The animation that one instance of a file plays, over and over.
 struct Clip {
   std::vector<Track> tracks;
-  double duration = 0;  ///< [s], above 0
-  double offset = 0;    ///< [s], added to the scene's time
+  double duration = 0;     ///< [s], above 0
+  double offset = 0;       ///< [s], added to the scene's time
+  int32_t first_node = 0;  ///< of the instance, whose nodes stand together; no clip moves nodes of another
+  int32_t node_count = 0;
 };
 
 struct SourceSkin {
@@ -70,6 +72,10 @@ struct SceneSource {
   std::vector<SourceSkin> skins;
   std::vector<Draw> draws;  ///< those that move; the others are baked
 };
+
+/// What one instance with an animation is made of: its nodes, its clip, and what moves of it. It poses as it does in
+/// the whole.
+[[nodiscard]] SceneSource part_of_clip(const SceneSource& source, const Clip& clip);
 
 /// Transforms of all nodes at one moment.
 struct NodeState {
