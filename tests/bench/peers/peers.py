@@ -12,6 +12,7 @@ import json
 import os
 import sys
 
+import error_table
 import peer_scene
 import renderers
 import speed_table
@@ -20,7 +21,12 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(HERE)))
 SPONZA = os.path.join(ROOT, "..", "shared", "scenes", "sponza.scene.json")
 ATRIUM = os.path.join(ROOT, "samples", "scenes", "atrium.scene.json")
-TABLES = {"speed": speed_table.make, "first_frame": speed_table.first_frame}
+TABLES = {
+    "speed": speed_table.make,
+    "first_frame": speed_table.first_frame,
+    "references": error_table.references,
+    "error": error_table.make,
+}
 
 
 def say(text):
@@ -42,6 +48,13 @@ def tables_of(text):
     return names
 
 
+def counts_of(text):
+    numbers = [int(part) if part.isdigit() else 0 for part in text.split(",")]
+    if 0 in numbers or numbers != sorted(set(numbers)):
+        raise argparse.ArgumentTypeError(f"'{text}' is no list of ascending counts such as 1,2,4,8")
+    return numbers
+
+
 def positive(text):
     if not text.isdigit() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is no positive integer")
@@ -61,8 +74,11 @@ def options():
     add("--paths", type=positive, default=15, help="paths a pixel of the speed table (default: 15)")
     add("--vertices", type=positive, default=5, help="vertices of a path on surfaces (default: 5)")
     add("--rounds", type=positive, default=3, help="rounds of the speed table (default: 3)")
+    add("--samples", type=counts_of, default=[1, 2, 4, 8, 16, 32], help="of Cycles' curve (default: 1,2,4,8,16,32)")
+    add("--frames", type=counts_of, default=[1, 4, 10], help="of Lightloom's curve (default: 1,4,10)")
+    add("--reference-samples", type=positive, default=128, help="paths of both references (default: 128)")
     add("--set", action="append", default=[], metavar="NAME=VALUE", help="parameter of graphs/lightloom.json")
-    add("--work", default=os.path.join(ROOT, "out", "peers"), help="folder for files")
+    add("--work", default=os.path.join(ROOT, "out", "peers"), help="folder for files; references stay there")
     add("--json", help="write all figures into this file")
     return parser.parse_args()
 
