@@ -4,7 +4,8 @@
 
 Reads one JSON object a line from standard input and answers each with a line "PEERS {...}" on standard output:
 {"do": "render", "samples": N, "bounces": B, "seed": S, "filter": width in pixels, "out": FILE or null, "denoise": bool}
-gives the seconds of the render operator; {"do": "textures"} writes PPM files of linear light for Embree.
+gives the seconds of the render operator; {"do": "textures"} writes PPM files of linear light for Embree;
+{"do": "picture", "files": [EXR, ...], "exposure": E, "out": PNG} puts images side by side at half their size.
 """
 
 import json
@@ -134,6 +135,27 @@ def write_textures(folder, images):
     return {"names": names}
 
 
+def half_size(file, exposure):
+    """Display values of a linear image, four pixels averaged into one."""
+    source = bpy.data.images.load(file)
+    width, height = (length // 2 * 2 for length in source.size)
+    pixels = numpy.array(source.pixels[:], dtype=numpy.float32).reshape(source.size[1], source.size[0], -1)
+    bpy.data.images.remove(source)
+    pixels = pixels[:height, :width, :3].reshape(height // 2, 2, width // 2, 2, 3).mean((1, 3)) * exposure
+    pixels = numpy.clip(pixels, 0, 1)
+    return numpy.where(pixels <= 0.0031308, pixels * 12.92, 1.055 * pixels ** (1 / 2.4) - 0.055)
+
+
+def write_picture(files, exposure, out):
+    colours = numpy.concatenate([half_size(file, exposure) for file in files], axis=1)
+    height, width = colours.shape[:2]
+    picture = bpy.data.images.new("picture", width, height)
+    picture.pixels = numpy.concatenate([colours, numpy.ones((height, width, 1))], axis=2).ravel().tolist()
+    picture.filepath_raw, picture.file_format = out, "PNG"
+    picture.save()
+    return {"width": width, "height": height}
+
+
 def colour_images(gltf):
     textures = [material.get("pbrMetallicRoughness", {}).get("baseColorTexture") for material in gltf["materials"]]
     indices = {gltf["textures"][texture["index"]]["source"] for texture in textures if texture}
@@ -169,6 +191,8 @@ def main(folder, camera, width, height):
         order = json.loads(line)
         if order["do"] == "render":
             answer(render(scene, order))
+        elif order["do"] == "picture":
+            answer(write_picture(order["files"], order["exposure"], order["out"]))
         elif order["do"] == "textures":
             answer(write_textures(folder, colour_images(gltf)))
 

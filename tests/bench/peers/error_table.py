@@ -115,6 +115,18 @@ def judge(peers, index, configuration, times, curve, files):
     return row, cells
 
 
+def draw(peers, judged, curve, files):
+    """Lightloom's last frames of one path, Cycles' picture of about that time, and its reference, side by side."""
+    index = len(peers.choice.frames) - 1
+    seconds = judged[index]["seconds"]
+    nearest = min(curve, key=lambda point: abs(point["seconds"] - seconds))
+    ours = peers.out(f"lightloom_{index}", f"radiance.{peers.choice.frames[index] - 1:04d}.exr")
+    theirs = peers.out(f"cycles_{nearest['samples']}.exr")
+    peers.cycles.picture([ours, theirs, files["cycles"]], peers.choice.exposure, peers.choice.picture)
+    return (f"{peers.choice.picture}: {judged[index]['name']} ({digits(seconds)} s), Cycles with {nearest['samples']} "
+            f"paths ({digits(nearest['seconds'])} s), Cycles with {peers.choice.reference_samples} paths")
+
+
 def make(peers, say):
     text, made = references(peers, say)
     files = made["files"]
@@ -127,4 +139,7 @@ def make(peers, say):
     if curve:
         rows = [[str(p["samples"]), *(digits(p[name]) for name in ("seconds", "flip", "relmse"))] for p in curve]
         parts.append(markdown(["Cycles, paths a pixel", "s", "FLIP", "relMSE"], rows))
-    return "\n\n".join(parts), {"references": made, "cycles": curve, "lightloom": [row for row, _ in judged]}
+    rows = [row for row, _ in judged]
+    if curve and peers.choice.picture:
+        parts.append(draw(peers, rows, curve, files))
+    return "\n\n".join(parts), {"references": made, "cycles": curve, "lightloom": rows}

@@ -79,6 +79,8 @@ def options():
     add("--reference-samples", type=positive, default=128, help="paths of both references (default: 128)")
     add("--set", action="append", default=[], metavar="NAME=VALUE", help="parameter of graphs/lightloom.json")
     add("--work", default=os.path.join(ROOT, "out", "peers"), help="folder for files; references stay there")
+    add("--picture", help="PNG file of the error table's pictures side by side")
+    add("--exposure", type=float, default=2.0, help="of that picture (default: 2)")
     add("--json", help="write all figures into this file")
     return parser.parse_args()
 

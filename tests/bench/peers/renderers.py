@@ -124,6 +124,10 @@ class Cycles:
         order = {"samples": samples, "bounces": bounces, "seed": seed, "out": out, "filter": filter_width}
         return self._order(do="render", denoise=denoise, **order)["seconds"]
 
+    def picture(self, files, exposure, out):
+        """Linear EXR files side by side as a PNG file, at half their size."""
+        self._order(do="picture", files=files, exposure=exposure, out=os.path.abspath(out))
+
     def textures(self):
         return {int(index): name for index, name in self._order(do="textures")["names"].items()}
 

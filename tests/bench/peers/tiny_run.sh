@@ -8,5 +8,7 @@ fi
 rm -rf "$3"
 mkdir -p "$3"
 "$2/tests/bench/peers/peers.py" --lightloom "$1" --scene "$2/samples/scenes/atrium.scene.json" --size 48x36 --paths 2 \
-  --rounds 2 --samples 1,2 --frames 1,2 --reference-samples 4 --set resolution=24 --work "$3" --json "$3/figures.json"
+  --rounds 2 --samples 1,2 --frames 1,2 --reference-samples 4 --set resolution=24 --work "$3" \
+  --picture "$3/picture.png" --json "$3/figures.json"
+test -s "$3/picture.png"
 grep -q '"cycles"' "$3/figures.json"
