@@ -31,6 +31,7 @@ class Instances : public ::testing::Test {
                          json{{"lightloom_scene", 1}, {"gltf", "still.gltf"}, {"instances", instances}}.dump());
   }
 
+ private:
   test::TemporaryFolder folder_;
 };
 

@@ -4,6 +4,7 @@
     growth.py --lightloom build/lightloom                     every quantity, some minutes
     growth.py --lightloom build/lightloom --long              to the ends of the ranges
     growth.py --lightloom build/lightloom --only voxels       one quantity; may be repeated
+    growth.py ... --keep points.json                          quantities that are in there are not measured again
     growth.py ... --write docs/performance.md                 puts the table in its place in the document
 """
 
@@ -34,7 +35,7 @@ class Bench:
         self.frames = frames
 
     def run(self, graph, scene, *options):
-        command = [self.program, "bench", str(graph), "--scene", str(scene), "--json", "--warm-up", "3",
+        command = [self.program, "bench", str(graph), "--scene", str(scene), "--json", "--warm-up", "2",
                    "--frames", f"0..{self.frames - 1}", *options]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
@@ -131,31 +132,38 @@ def put_into(document, table):
     document.write_text(text[:begin] + BEGIN + "\n" + table + "\n" + text[end:])
 
 
+def measured(bench, name, long):
+    """All points of a quantity, each told as it is there."""
+    quantity = quantities.ALL[name]
+    points = []
+    for x in quantity.points + (quantity.long_points if long else []):
+        size, values = quantity.measure(bench, x)
+        points.append((size, values))
+        print(f"{name} {size}: " + ", ".join(f"{what} {text_of(y)}" for what, y in values.items()),
+              file=sys.stderr, flush=True)
+    return points
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--lightloom", default="build/lightloom", help="the program [default: %(default)s]")
     parser.add_argument("--only", action="append", choices=sorted(quantities.ALL), help="one quantity; may be repeated")
     parser.add_argument("--long", action="store_true", help="to the ends of the ranges")
-    parser.add_argument("--frames", type=int, default=5, help="measured frames of each point [default: %(default)s]")
+    parser.add_argument("--frames", type=int, default=3, help="measured frames of each point [default: %(default)s]")
     parser.add_argument("--bound", type=float, default=1.1, help="largest exponent [default: %(default)s]")
-    parser.add_argument("--json", type=pathlib.Path, help="file for all points")
+    parser.add_argument("--keep", type=pathlib.Path, help="file of all points; quantities in it are not measured again")
     parser.add_argument("--write", type=pathlib.Path, help="document whose table is replaced")
     options = parser.parse_args()
-    rows, record = [], {}
+    record = json.loads(options.keep.read_text()) if options.keep and options.keep.exists() else {}
+    rows = []
     with tempfile.TemporaryDirectory(prefix="lightloom_growth_") as folder:
         bench = Bench(options.lightloom, pathlib.Path(folder), options.frames)
         for name in options.only or quantities.ALL:
-            quantity = quantities.ALL[name]
-            points = []
-            for x in quantity.points + (quantity.long_points if options.long else []):
-                size, values = quantity.measure(bench, x)
-                points.append((size, values))
-                print(f"{name} {size}: " + ", ".join(f"{what} {text_of(y)}" for what, y in values.items()),
-                      file=sys.stderr, flush=True)
-            record[name] = points
-            rows += rows_of(quantity, points)
-    if options.json:
-        options.json.write_text(json.dumps(record, indent=1) + "\n")
+            if name not in record:
+                record[name] = measured(bench, name, options.long)
+            if options.keep:
+                options.keep.write_text(json.dumps(record, indent=1) + "\n")
+            rows += rows_of(quantities.ALL[name], record[name])
     table = table_of(rows)
     print(table)
     if options.write:

@@ -134,7 +134,7 @@ def passes(bench, count):
 
 
 ALL = {
-    "pixels": Quantity("pixels", [80, 160, 320, 640], [1280, 2560], pixels),
+    "pixels": Quantity("pixels", [80, 160, 320, 640], [1280, 1920], pixels),
     "paths": Quantity("paths a pixel", [1, 4, 16], [64, 256], of_param("paths")),
     "bounces": Quantity("bounces", [1, 2, 4, 8], [16, 64], of_param("bounces")),
     "triangles": Quantity("triangles, each its own", [1000, 10_000, 100_000, 1_000_000], [4_000_000],
