@@ -68,7 +68,9 @@ class PlanPage(unittest.TestCase):
         return self.value(f"document.querySelectorAll(`{selector}`).length")
 
     def tooltip(self):
-        return self.value("document.getElementById('tooltip').hidden ? '' : document.getElementById('tooltip').textContent")
+        # A busy machine may show it later than the pointer's move has been answered.
+        self.browser.wait("!document.getElementById('tooltip').hidden")
+        return self.value("document.getElementById('tooltip').textContent")
 
     def test_order_shows_every_port_and_step(self):
         for name in ("paper", "lightloom"):
