@@ -5,6 +5,7 @@
 #include "passes/denoise_radial.hpp"
 #include "passes/distance_transform.hpp"
 #include "passes/emissive_faces.hpp"
+#include "passes/empty_boxes.hpp"
 #include "passes/gather.hpp"
 #include "passes/modulate.hpp"
 #include "passes/ray_query_path_trace.hpp"
@@ -25,6 +26,7 @@ void register_builtin_passes(PassRegistry& registry) {
   registry.add(make_voxelize());
   registry.add(make_voxel_merge());
   registry.add(make_distance_transform());
+  registry.add(make_empty_boxes());
   registry.add(make_emissive_faces());
   registry.add(make_gather());
   registry.add(make_resample_surface());

@@ -14,6 +14,14 @@ Port optional_image(std::string name, Format format, std::string doc) {
   return port;
 }
 
+Port boxes_input() {
+  Port port = same_size_as(
+      "distance", optional_image("boxes", Format::rgba32_uint, "empty_boxes.boxes; what `march` box_exit steps by"));
+  port.dimension = Dimension::d3;
+  port.needed_with = [](const ParamSet& params) { return params.choice("march") == "box_exit"; };
+  return port;
+}
+
 /// What the pass did, for who measures it.
 Port counts_output() {
   Port port = image_output_like("counts", Format::rg32_uint, "surface",
@@ -31,6 +39,7 @@ std::vector<Port> ports() {
        same_size_as("voxels", volume_input("distance",
                                            "chessboard distance to the nearest occupied voxel [voxels / 255], "
                                            "capped")),
+       boxes_input(),
        optional_image("faces", Format::rg32_uint, "emissive_faces.faces; what `nee` voxel_faces draws from"),
        optional_image("power", Format::r32_uint, "emissive_faces.power; what `emitter_area` surface compares with")});
   result.push_back(counts_output());
@@ -40,10 +49,12 @@ std::vector<Port> ports() {
 std::vector<Param> params() {
   return with_path_params({
       choice_param(
-          "march", "cube_exit", {"sphere", "cube_exit", "dda"},
+          "march", "cube_exit", {"sphere", "cube_exit", "dda", "box_exit"},
           "how rays go through the grid: by steps as long as the distance to the nearest occupied voxel (sphere, the "
-          "paper's, which steps over corners); to the end of the empty cube around them (cube_exit) or from voxel to "
-          "voxel (dda), which both find every voxel that a ray touches"),
+          "paper's, which steps over corners); to the end of the empty cube around them (cube_exit), from voxel to "
+          "voxel (dda) or to the end of the empty box ahead of them, from input `boxes` (box_exit; cube_exit where "
+          "that "
+          "is not there), which all three find every voxel that a ray touches"),
       choice_param(
           "start", "clearance", {"clearance", "sqrt3"},
           "where the rays of a surface start: as far along its normal as it takes to leave the voxels of its plane, "

@@ -76,7 +76,7 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
   for (uint bounce = 1u;; ++bounce) {
     vec3 direction = to_world(vertex.basis, scatter.direction);
     if (dot(direction, vertex.geometric_normal) <= 0.0) break;
-    MarchHit hit = march_ray(distance, vertex.origin, direction, kFarAway);
+    MarchHit hit = march_grid(distance, vertex.origin, direction, kFarAway);
     if (!hit.hit) {
       radiance += throughput * (environment_hit(direction, scatter) + sun_hit(direction, scatter));
       break;

@@ -84,7 +84,7 @@ PerLobe face_light(Grid grid, texture3D distance_field, texture3D normals, textu
   PerLobe reflected = reflectance_towards(vertex, direction);
   if (is_black(reflected)) return kNoLight;
   // A sphere march may notice the voxel as late as when it leaves it.
-  MarchHit hit = march_ray(distance_field, vertex.origin, direction, t + 2.0);
+  MarchHit hit = march_grid(distance_field, vertex.origin, direction, t + 2.0);
   if (!hit.hit || hit.voxel != voxel) return kNoLight;
   return scaled(reflected, voxel_radiance(grid, emission) * light_sample_weight(pdf, scatter_pdf(vertex, direction)));
 }

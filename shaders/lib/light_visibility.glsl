@@ -2,7 +2,7 @@
 #ifndef LIGHTLOOM_LIB_LIGHT_VISIBILITY
 #define LIGHTLOOM_LIB_LIGHT_VISIBILITY
 
-#include "lib/march.glsl"
+#include "lib/march_boxes.glsl"
 
 // A shadow ray may end this far from its target: there the target's own voxels begin.
 const float kLightReach = 1.7320508;   // sqrt(3) voxels
@@ -12,7 +12,7 @@ bool light_visible(texture3D distance_field, texture3D material, vec3 origin, ve
   vec3 path = target - origin;
   float path_length = length(path);
   if (path_length <= kLightReach) return true;
-  MarchHit hit = march_ray(distance_field, origin, path / path_length, path_length - kLightReach);
+  MarchHit hit = march_grid(distance_field, origin, path / path_length, path_length - kLightReach);
   if (!hit.hit) return true;
   return emission > 0u && uint(round(texelFetch(material, hit.voxel, 0).a * 255.0)) == emission;
 }

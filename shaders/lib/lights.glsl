@@ -11,7 +11,7 @@
 
 // What is left of a sample of light from far away.
 PerLobe distant_light(texture3D distance_field, PathVertex vertex, LightSample far) {
-  if (is_black(far.light) || march_ray(distance_field, vertex.origin, far.direction, kFarAway).hit) return kNoLight;
+  if (is_black(far.light) || march_grid(distance_field, vertex.origin, far.direction, kFarAway).hit) return kNoLight;
   return far.light;
 }
 

@@ -5,6 +5,8 @@
 //   cube_exit   steps to where the ray leaves the empty cube of half edge D - 1/2 around its voxel (Sramek and Kaufman
 //               2000). Finds every voxel that the ray touches.
 //   dda         steps to the next voxel (Amanatides and Woo 1987): cube_exit without distances, which finds the same.
+//   box_exit    steps to where the ray leaves the empty box ahead of its voxel (passes/empty_boxes.cpp), and finds the
+//               same; march_boxes in march_boxes.glsl.
 //
 // Positions are in grid units: voxel (i, j, k) is [i, i+1) x [j, j+1) x [k, k+1). Directions are unit vectors, so the
 // ray parameter counts voxels. Outside the grid all is empty.
@@ -14,6 +16,7 @@
 const uint kMarchSphere = 0u;
 const uint kMarchCubeExit = 1u;
 const uint kMarchDda = 2u;
+const uint kMarchBoxExit = 3u;   // cube_exit for those who have no boxes
 layout(constant_id = 23) const uint march = 1u;
 
 const float kFarAway = 1e30;   // longer than any ray
@@ -79,18 +82,23 @@ MarchHit march_spheres(texture3D distance_field, vec3 origin, vec3 direction, fl
   float last = min(end, least_of(far) + 1.0);
   float t = ceil(max(greatest_of(near) - 1.0, 0.0));
   int limit = size.x + size.y + size.z + 8;
+  bool found = false;
+  ivec3 voxel = ivec3(-1);
+  // What follows a hit stands after the loop: a CPU device runs all that is in the loop in each round.
   for (int step_count = 0; step_count < limit && t <= last; ++step_count) {
     precise vec3 position = origin + direction * t;
-    ivec3 voxel = ivec3(floor(position));
+    voxel = ivec3(floor(position));
     int empty = 1;
     if (within(voxel, size)) {
       ++steps_marched;
       empty = voxel_distance(distance_field, voxel);
-      if (empty == 0) return MarchHit(true, voxel, t, entry_face(voxel, origin, direction));
+      found = empty == 0;
     }
+    if (found) break;
     t += float(max(empty, 1));
   }
-  return MarchHit(false, ivec3(-1), last, ivec3(0));
+  if (!found) return MarchHit(false, ivec3(-1), last, ivec3(0));
+  return MarchHit(true, voxel, t, entry_face(voxel, origin, direction));
 }
 
 // First occupied voxel that the ray enters up to `end`. Positions follow from the origin alone and voxels are counted
@@ -109,13 +117,12 @@ MarchHit march_cubes(texture3D distance_field, vec3 origin, vec3 direction, floa
   int axis = t > 0.0 ? axis_of(near, t) : -1;
   if (axis >= 0) voxel[axis] = forward[axis] ? 0 : size[axis] - 1;
   int limit = size.x + size.y + size.z + 8;
+  bool found = false;
   for (int step_count = 0; step_count < limit; ++step_count) {
     ++steps_marched;
     int empty = voxel_distance(distance_field, voxel);
-    if (empty == 0) {
-      ivec3 face = axis >= 0 ? face_towards(axis, direction) : entry_face(voxel, origin, direction);
-      return MarchHit(true, voxel, t, face);
-    }
+    found = empty == 0;
+    if (found) break;
     if (march == kMarchDda) empty = 1;
     ivec3 low = voxel - (empty - 1);
     ivec3 high = voxel + (empty - 1);
@@ -130,7 +137,8 @@ MarchHit march_cubes(texture3D distance_field, vec3 origin, vec3 direction, floa
     if (!within(next, size)) break;
     voxel = next;
   }
-  return MarchHit(false, ivec3(-1), min(end, t), ivec3(0));
+  if (!found) return MarchHit(false, ivec3(-1), min(end, t), ivec3(0));
+  return MarchHit(true, voxel, t, axis >= 0 ? face_towards(axis, direction) : entry_face(voxel, origin, direction));
 }
 
 MarchHit march_ray(texture3D distance_field, vec3 origin, vec3 direction, float end) {

@@ -26,12 +26,24 @@ PassType make_test_march() {
   PassType type;
   type.name = "test_march";
   type.doc = "Marches random rays.";
-  type.ports = {passes::volume_input("distance", "distance field"), view_output("origin"), view_output("direction"),
-                view_output("hit"), view_output("face")};
-  type.params = {
-      {"end", ParamType::real, 1e30, 0, 1e30, {}, "voxels", "length of the rays"},
-      {"salt", ParamType::integer, int64_t{0}, 0, {}, {}, "", "of the random numbers"},
-      {"march", ParamType::choice, std::string("sphere"), {}, {}, {"sphere", "cube_exit", "dda"}, "", "how"}};
+  Port boxes = passes::optional(passes::image_input("boxes", Format::rgba32_uint, "empty boxes"));
+  boxes.dimension = Dimension::d3;
+  type.ports = {passes::volume_input("distance", "distance field"),
+                boxes,
+                view_output("origin"),
+                view_output("direction"),
+                view_output("hit"),
+                view_output("face")};
+  type.params = {{"end", ParamType::real, 1e30, 0, 1e30, {}, "voxels", "length of the rays"},
+                 {"salt", ParamType::integer, int64_t{0}, 0, {}, {}, "", "of the random numbers"},
+                 {"march",
+                  ParamType::choice,
+                  std::string("sphere"),
+                  {},
+                  {},
+                  {"sphere", "cube_exit", "dda", "box_exit"},
+                  "",
+                  "how"}};
   type.record = [](PassContext& context) { context.dispatch({"test_march.comp", context.output_extent("hit"), {}}); };
   return type;
 }
@@ -59,7 +71,8 @@ Images run_march(const std::string& march, const std::string& voxels, int radius
   const std::string passes = R"("voxels": )" + voxels + R"(,
     "distance": { "type": "distance_transform", "in": { "voxels": "voxels.voxels" }, "params": { "radius": )" +
                              std::to_string(radius) + R"( } },
-    "march": { "type": "test_march", "in": { "distance": "distance.distance" }, "params": { "march": ")" +
+    "boxes": { "type": "empty_boxes", "in": { "distance": "distance.distance" } },
+    "march": { "type": "test_march", "in": { "distance": "distance.distance", "boxes": "boxes.boxes" }, "params": { "march": ")" +
                              march + R"(", "salt": )" + std::to_string(salt) + R"(, "end": )" + std::to_string(end) +
                              " } }";
   GraphRunOptions options;
@@ -262,7 +275,7 @@ TEST_P(ExactMarch, EmptyAndFullGridsEnd) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, ExactMarch, testing::Values("cube_exit", "dda"),
+INSTANTIATE_TEST_SUITE_P(Modes, ExactMarch, testing::Values("cube_exit", "dda", "box_exit"),
                          [](const testing::TestParamInfo<const char*>& mode) { return std::string(mode.param); });
 
 /// Distances read by the ray of a texel.
@@ -291,6 +304,8 @@ TEST_F(March, CountsTheVoxelsThatItLooksAt) {
   EXPECT_GT(compared, 2000);
   EXPECT_LE(total_steps(run_march("cube_exit", kClutter, 1, 1e6)), total_steps(dda));
   EXPECT_LT(total_steps(run_march("cube_exit", kClutter, 15, 1e6)), 0.5 * total_steps(dda));
+  EXPECT_LT(total_steps(run_march("box_exit", kClutter, 4, 1e6)),
+            0.6 * total_steps(run_march("cube_exit", kClutter, 15, 1e6)));
 }
 
 TEST_F(March, SphereEntersThroughTheFaceThatTheRayMeets) {

@@ -4,7 +4,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
 
-#include "lib/march.glsl"
+#include "lib/march_boxes.glsl"
 #include "lib/random.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -46,7 +46,7 @@ void main() {
     origin = (u.zxy * 20.0 - 10.0) * size;
     direction = normalize(random4(key, 0u, 2u).xyz * size - origin);
   }
-  MarchHit hit = march_ray(distance, origin, direction, end);
+  MarchHit hit = march_grid(distance, origin, direction, end);
   imageStore(out_origin, pixel, vec4(origin, 0.0));
   imageStore(out_direction, pixel, vec4(direction, entry_distance(hit, origin, direction)));
   imageStore(out_hit, pixel, vec4(vec3(hit.voxel), hit.hit ? hit.t : -1.0));

@@ -1,0 +1,46 @@
+#include "passes/empty_boxes.hpp"
+
+#include "passes/port_rows.hpp"
+
+namespace lightloom::passes {
+namespace {
+
+Port boxes_output() {
+  Port port = image_output_like(
+      "boxes", Format::rgba32_uint, "distance",
+      "for each sign of a direction, the edges of an empty box [voxels, at most 31] with this voxel in its near "
+      "corner: "
+      "5 bits each, x lowest; all 0 in an occupied voxel. Channels: +y +z, -y +z, +y -z, -y -z; low half +x, high -x");
+  port.dimension = Dimension::d3;
+  port.access = Access::compute_storage_read_write;
+  port.exact_format = "it holds packed whole numbers";
+  return port;
+}
+
+/// One thread for each row of voxels along the axis.
+void record(PassContext& context) {
+  const Extent3 grid = context.output_extent("boxes");
+  context.dispatch({"empty_boxes.comp", {grid.height, grid.depth, 1}, {{"axis", 0}}});
+  context.dispatch({"empty_boxes.comp", {grid.width, grid.depth, 1}, {{"axis", 1}}});
+  context.dispatch({"empty_boxes.comp", {grid.width, grid.height, 1}, {{"axis", 2}}});
+}
+
+}  // namespace
+
+PassType make_empty_boxes() {
+  PassType type;
+  type.name = "empty_boxes";
+  type.doc =
+      "Empty boxes ahead of each voxel, for rays that step through the grid from box to box (`march` box_exit). A ray "
+      "never turns back along an axis, so what lies behind it need not be empty and a box may be long where a cube "
+      "around the voxel would be small: along walls. From the cubes that `distance` promises, boxes grow along x, y "
+      "and z in turn: a voxel's box and the one of its neighbour ahead share their cross-section and add up in "
+      "length, if that makes the box larger in the harmonic mean of its edges. Costs 16 bytes a voxel, and has to be "
+      "made anew as a whole when anything moves.";
+  Port distance = volume_input("distance", "chessboard distance to the nearest occupied voxel [voxels / 255], capped");
+  type.ports = {distance, boxes_output()};
+  type.record = record;
+  return type;
+}
+
+}  // namespace lightloom::passes
