@@ -1,5 +1,6 @@
 #include "framework/graph/plan_dot.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <sstream>

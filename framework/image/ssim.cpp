@@ -1,5 +1,6 @@
 #include "framework/image/ssim.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

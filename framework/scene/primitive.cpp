@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "framework/scene/basis.hpp"
 #include "framework/scene/fail.hpp"

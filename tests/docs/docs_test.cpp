@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include "framework/base/diagnostics.hpp"
 #include "framework/base/file.hpp"

@@ -1,5 +1,6 @@
 #include "framework/gpu/pipeline.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <stdexcept>
 
 #include "framework/base/hash.hpp"
 #include "framework/graph/plan.hpp"

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <numbers>
 
 #include "framework/image/crop.hpp"
 #include "framework/image/flicker.hpp"

@@ -1,5 +1,6 @@
 #include "tests/passes/filter_support.hpp"
 
+#include <cmath>
 #include <sstream>
 
 namespace lightloom::test {

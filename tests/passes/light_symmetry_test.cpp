@@ -1,6 +1,7 @@
 // What must not depend on how a scene is put: its scale of radiance, its direction, things that cannot be seen.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/passes/light_scenes.hpp"

@@ -2,6 +2,7 @@
 // follow.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/packing.hpp>

@@ -1,6 +1,7 @@
 // Values stored in other formats than their passes name.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/constants.hpp>

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/passes/temporal_support.hpp"
 #include "tests/support/device_fixture.hpp"
 

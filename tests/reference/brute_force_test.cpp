@@ -2,6 +2,7 @@
 // double precision; directions are uniform on the hemisphere; lights are met by chance alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>

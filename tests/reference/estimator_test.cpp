@@ -1,6 +1,7 @@
 // What any estimator must keep: strategies agree, errors are as large as it says, threads do not matter.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 

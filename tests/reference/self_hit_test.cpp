@@ -1,6 +1,7 @@
 // Rays that leave a surface do not meet it again, whatever its size, place and orientation.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "framework/reference/triangle_geometry.hpp"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/gtc/constants.hpp>
 
 #include "framework/base/error.hpp"

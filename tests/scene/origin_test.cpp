@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "framework/scene/camera_path.hpp"
 #include "tests/scene/gltf_builder.hpp"
 

@@ -2,6 +2,7 @@
 // formulas in double precision that share no code with the shaders.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>

@@ -1,6 +1,7 @@
 // How fast the reference tracer is. Labelled slow: a machine that is busy with other things fails it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
