@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <utility>
 
 #include "framework/base/interrupt.hpp"
@@ -27,6 +28,7 @@ struct BenchOptions {
   std::string device;
   bool no_alias = false;
   bool count_rays = false;
+  bool floors = false;
   bool json = false;
 };
 
@@ -89,6 +91,7 @@ std::optional<study::RayCounts> count_rays(const BenchOptions& options, const Co
     return pass.type->find_port("counts", Direction::out) != nullptr;
   });
   if (!any) {
+    if (!options.count_rays) return std::nullopt;
     print_warning(context.err, "no pass of '" + contender.name + "' counts its rays; voxel_path_trace does");
     return std::nullopt;
   }
@@ -99,6 +102,16 @@ std::optional<study::RayCounts> count_rays(const BenchOptions& options, const Co
                                                 contender.changes.compile_options(), run.options.shaders);
   run::Executor executor(device, std::move(*plan), scene, run.options);
   return study::count_rays(executor.run_frame(options.picture.frames.first + options.warm_up));
+}
+
+/// Needs the rays.
+void add_floors(study::BenchRecord& record, gpu::Device& device, const run::ShaderFolders& shaders) {
+  std::set<Format> formats;
+  for (const Plan& plan : record.plans) formats.merge(study::formats_of(plan));
+  const std::shared_ptr<run::ShaderLibrary> library = run::make_library(device, shaders);
+  record.rates = study::measure_rates(device, *library, record.plans.front().graph.trace, formats);
+  for (size_t i = 0; i < record.runs.size(); ++i)
+    record.floors.push_back(study::floors_of(record.plans[i], record.runs[i], *record.rates));
 }
 
 ExitCode bench(const BenchOptions& options, const CommandContext& context, const std::vector<std::string>& arguments) {
@@ -132,10 +145,11 @@ ExitCode bench(const BenchOptions& options, const CommandContext& context, const
         study::measure(device, scene, runs, record.settings, [&bar](uint32_t done, uint32_t) { bar.update(done); });
   }
   for (size_t i = 0; i < runs.size(); ++i) {
-    if (options.count_rays) record.runs[i].rays = count_rays(options, contenders[i], scene, device, runs[i], context);
+    if (options.count_rays || options.floors) record.runs[i].rays = count_rays(options, contenders[i], scene, device, runs[i], context);
     record.plans.push_back(std::move(runs[i].plan));
   }
   record.device = device.info();
+  if (options.floors) add_floors(record, device, options.picture.request(context).shaders);
   if (options.json)
     context.out << study::bench_json(record, scene).dump(2) << '\n';
   else
@@ -165,6 +179,9 @@ void add_bench_command(Command& program, const CommandContext& context, const st
       .placeholder("\"[GRAPH] [OPTIONS]\"");
   command.flag("--count-rays", options->count_rays,
                "Also count the rays and steps of a frame, where a pass can, in a frame that is not measured");
+  command.flag("--floors", options->floors,
+               "Also measure what the device does at best, and set each pass beside the least time that its bytes, "
+               "texels and steps take at these rates");
   command.flag("--no-alias", options->no_alias, "Give every value memory of its own");
   command.option("--device", options->device, "Device by index or part of its name; 'lightloom devices' lists them")
       .placeholder("NAME");

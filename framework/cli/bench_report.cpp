@@ -38,6 +38,10 @@ class Report {
          << align_columns(once()) << "\nmemory\n"
          << align_columns(memory());
     rays();
+    if (record_.rates) out_ << "\nwhat the device does at best\n" << align_columns(rates());
+    for (size_t i = 0; i < record_.floors.size(); ++i)
+      out_ << "\nnear the limit" << (two_ ? ", " + std::to_string(i + 1) : "") << " [ms]\n"
+           << align_columns(floors(record_.floors[i]));
     return out_.str();
   }
 
@@ -139,6 +143,39 @@ class Report {
              << number(study::per_second(run.rays->steps, run) * 1e-6) << " million steps a second of its passes";
       out_ << '\n';
     }
+  }
+
+  std::vector<Row> rates() const {
+    const study::DeviceRates& rates = *record_.rates;
+    const auto giga = [](double rate) { return number(rate * 1e-9); };
+    std::vector<Row> rows = {
+        {"  copies [GB/s, read and written]", "in cache " + giga(rates.copy.in_cache),
+         "in memory " + giga(rates.copy.in_memory), "by transfer " + giga(rates.copy.transfer)},
+        {"  float operations [10^9/s]", giga(rates.flops)},
+        {"  invocations [10^9/s]", giga(rates.invocations)},
+        {"  a dispatch [ms]", number(rates.dispatch * 1e3)}};
+    for (const auto& [format, rate] : rates.loads)
+      rows.push_back({"  " + std::string(format_info(format).name) + " texels [10^9/s]", "read " + giga(rate),
+                      "written " + giga(rates.stores.at(format))});
+    for (const study::FetchRates& rate : rates.fetches)
+      rows.push_back({"  fetches in turn, r8_unorm " + std::to_string(rate.side) + " cubed [10^9/s]",
+                      "marching " + giga(rate.marching), "scattered " + giga(rate.scattered)});
+    return rows;
+  }
+
+  static std::vector<Row> floors(const std::vector<study::PassFloor>& floors) {
+    std::vector<Row> rows = {{"", "MB", "by bytes", "by texels", "by steps", "floor", "measured", "measured / floor"}};
+    double floor_sum = 0, measured_sum = 0;
+    for (const study::PassFloor& floor : floors) {
+      floor_sum += floor.floor_ms();
+      measured_sum += floor.measured_ms;
+      rows.push_back({"  " + floor.pass, number(static_cast<double>(floor.bytes_read + floor.bytes_written) * 1e-6),
+                      number(floor.bytes_ms), number(floor.texels_ms), floor.steps_ms > 0 ? number(floor.steps_ms) : "-",
+                      number(floor.floor_ms()), number(floor.measured_ms), number(floor.ratio())});
+    }
+    rows.push_back({"  all", "", "", "", "", number(floor_sum), number(measured_sum),
+                    floor_sum > 0 ? number(measured_sum / floor_sum) : "-"});
+    return rows;
   }
 
   const study::BenchRecord& record_;

@@ -100,6 +100,7 @@ RayCounts count_rays(const run::FrameResult& frame) {
     const size_t dot = capture.name.find('.');
     if (capture.name.substr(dot) != ".counts" || capture.image.desc.format != Format::rg32_uint) continue;
     counts.passes.push_back(capture.name.substr(0, dot));
+    const double steps_before = counts.steps;
     const std::vector<std::byte>& texels = capture.image.texels;
     for (size_t at = 0; at + 8 <= texels.size(); at += 8) {
       uint32_t pixel[2];
@@ -107,6 +108,7 @@ RayCounts count_rays(const run::FrameResult& frame) {
       counts.rays += pixel[0];
       counts.steps += pixel[1];
     }
+    counts.steps_by_pass.push_back(counts.steps - steps_before);
   }
   return counts;
 }

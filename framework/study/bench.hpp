@@ -33,6 +33,7 @@ struct RayCounts {
   std::vector<std::string> passes;  ///< that counted
   double rays = 0;                  ///< marched in a frame
   double steps = 0;                 ///< of them
+  std::vector<double> steps_by_pass{};
 };
 
 /// What one run cost. All times in ms.

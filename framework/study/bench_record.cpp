@@ -102,9 +102,15 @@ Json bench_json(const BenchRecord& record, const scene::Scene& scene) {
                {"frames", record.settings.frames},      {"warm_up", record.settings.warm_up},
                {"scene_ms", record.scene_ms},           {"device_ms", record.device_ms},
                {"host_peak_bytes", peak_memory_bytes()}};
-  json.update(run_json(record.runs[0], record.plans[0]));
+  if (record.rates) json["device_rates"] = rates_json(*record.rates);
+  const auto run = [&](size_t index) {
+    Json figures = run_json(record.runs[index], record.plans[index]);
+    if (index < record.floors.size()) figures["floors"] = floors_json(record.floors[index]);
+    return figures;
+  };
+  json.update(run(0));
   if (record.runs.size() < 2) return json;
-  json["against"] = run_json(record.runs[1], record.plans[1]);
+  json["against"] = run(1);
   json["comparison"] = comparison_json(compare_runs(record.runs[0], record.runs[1]));
   return json;
 }

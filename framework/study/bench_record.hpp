@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "framework/graph/plan.hpp"
 #include "framework/scene/scene.hpp"
 #include "framework/study/bench.hpp"
+#include "framework/study/device_rates.hpp"
+#include "framework/study/floors.hpp"
 #include "framework/study/statistics.hpp"
 
 namespace lightloom::study {
@@ -21,6 +24,8 @@ struct BenchRecord {
   double device_ms = 0;            ///< opening the device
   std::vector<BenchFigures> runs;  ///< one or two
   std::vector<Plan> plans;         ///< of the runs
+  std::optional<DeviceRates> rates;             ///< where floors are wanted
+  std::vector<std::vector<PassFloor>> floors{};  ///< of the runs, there
 };
 
 /// How the first run stands to the second, by the times of the frames that ran side by side.
@@ -36,8 +41,8 @@ struct BenchComparison {
 /// Rays or steps of a frame over the median time of the passes that marched them [1/s]; 0 where that is not known.
 [[nodiscard]] double per_second(double count, const BenchFigures& figures);
 
-/// `frame_ms` {median, p95, samples}, `passes` {NAME: {median, p95, samples}}, `once`, `memory`, `rays` of the first
-/// run; the same of the second under `against`; and `comparison`, first over second.
+/// `frame_ms` {median, p95, samples}, `passes` {NAME: {median, p95, samples}}, `once`, `memory`, `rays` and `floors`
+/// of the first run; the same of the second under `against`; `comparison`, first over second; and `device_rates`.
 [[nodiscard]] nlohmann::ordered_json bench_json(const BenchRecord& record, const scene::Scene& scene);
 
 }  // namespace lightloom::study
