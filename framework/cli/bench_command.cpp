@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "framework/base/interrupt.hpp"
+#include "framework/base/process.hpp"
 #include "framework/base/progress.hpp"
 #include "framework/base/text.hpp"
 #include "framework/cli/bench_report.hpp"
@@ -104,6 +105,13 @@ std::optional<study::RayCounts> count_rays(const BenchOptions& options, const Co
   return study::count_rays(executor.run_frame(options.picture.frames.first + options.warm_up));
 }
 
+study::BenchMemory memory_held(const gpu::Device& device) {
+  return {.host = memory_bytes(),
+          .host_peak = peak_memory_bytes(),
+          .device_peak = device.memory_ledger().peaks(),
+          .device_peak_total = device.memory_ledger().peak()};
+}
+
 /// Needs the rays.
 void add_floors(study::BenchRecord& record, gpu::Device& device, const run::ShaderFolders& shaders) {
   std::set<Format> formats;
@@ -141,11 +149,14 @@ ExitCode bench(const BenchOptions& options, const CommandContext& context, const
   {
     ProgressBar bar(context.err, context.err_is_terminal, "bench", "frames",
                     record.settings.frames + record.settings.warm_up);
-    record.runs =
-        study::measure(device, scene, runs, record.settings, [&bar](uint32_t done, uint32_t) { bar.update(done); });
+    record.runs = study::measure(device, scene, runs, record.settings, [&](uint32_t done, uint32_t total) {
+      bar.update(done);
+      if (done == total) record.memory = memory_held(device);
+    });
   }
   for (size_t i = 0; i < runs.size(); ++i) {
-    if (options.count_rays || options.floors) record.runs[i].rays = count_rays(options, contenders[i], scene, device, runs[i], context);
+    if (options.count_rays || options.floors)
+      record.runs[i].rays = count_rays(options, contenders[i], scene, device, runs[i], context);
     record.plans.push_back(std::move(runs[i].plan));
   }
   record.device = device.info();

@@ -5,9 +5,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "framework/base/process.hpp"
 #include "framework/cli/text_layout.hpp"
-#include "framework/gpu/memory.hpp"
 
 namespace lightloom::cli {
 namespace {
@@ -18,6 +16,10 @@ std::string number(double value, const char* format = "%.3g") {
   std::array<char, 48> buffer{};
   std::snprintf(buffer.data(), buffer.size(), value >= 1000 ? "%.0f" : format, value);
   return buffer.data();
+}
+
+std::string mebibytes(uint64_t bytes) {
+  return number(static_cast<double>(bytes) / (1 << 20));
 }
 
 std::string ratio_text(const study::RatioEstimate& ratio) {
@@ -35,7 +37,7 @@ class Report {
   std::string write() {
     heading();
     out_ << align_columns(frames()) << "\nonce [ms]\n"
-         << align_columns(once()) << "\nmemory\n"
+         << align_columns(once()) << "\nmemory [MiB]\n"
          << align_columns(memory());
     rays();
     if (record_.rates) out_ << "\nwhat the device does at best\n" << align_columns(rates());
@@ -117,19 +119,47 @@ class Report {
     };
     add("  plan the graph", [](const study::BenchFigures& run) { return run.plan_ms; });
     add("  set up memory, upload the scene", [](const study::BenchFigures& run) { return run.setup_ms; });
-    add("  first frame, pipelines made", [](const study::BenchFigures& run) { return run.first_frame_ms; });
-    add("  hoisted passes in it", [](const study::BenchFigures& run) {
-      double sum = 0;
-      for (const auto& [pass, milliseconds] : run.once) sum += milliseconds;
-      return sum;
-    });
+    add("  first frame, with what follows", [](const study::BenchFigures& run) { return run.first_frame_ms; });
+    add("    shaders read or compiled", [](const study::BenchFigures& run) { return run.shaders_ms; });
+    add("    pipelines made", [](const study::BenchFigures& run) { return run.pipelines_ms; });
+    std::vector<std::string> hoisted;
+    for (const study::BenchFigures& run : record_.runs)
+      for (const auto& [pass, milliseconds] : run.once)
+        if (std::find(hoisted.begin(), hoisted.end(), pass) == hoisted.end()) hoisted.push_back(pass);
+    for (const std::string& pass : hoisted) {
+      Row row = {"    " + pass + ", hoisted"};
+      for (const study::BenchFigures& run : record_.runs) {
+        const auto found =
+            std::find_if(run.once.begin(), run.once.end(), [&](const auto& entry) { return entry.first == pass; });
+        row.push_back(found == run.once.end() || found->second < 0 ? "-" : number(found->second));
+      }
+      rows.push_back(row);
+    }
     return rows;
   }
 
   std::vector<Row> memory() const {
-    Row values = {"  values on the device"};
-    for (const study::BenchFigures& run : record_.runs) values.push_back(gpu::bytes_text(run.value_bytes));
-    return {values, {"  the process at its peak", gpu::bytes_text(peak_memory_bytes())}};
+    std::vector<Row> rows = {{""}};
+    for (size_t i = 0; i < record_.runs.size(); ++i) rows[0].push_back(two_ ? std::to_string(i + 1) : "now");
+    rows[0].push_back("at its peak");
+    const auto add = [&](const std::string& name, auto figure, uint64_t peak) {
+      Row row = {name};
+      for (const study::BenchFigures& run : record_.runs) row.push_back(mebibytes(figure(run)));
+      row.push_back(mebibytes(peak));
+      rows.push_back(row);
+    };
+    constexpr std::array kNames = {"    images", "    buffers", "    shared by values", "    staging and read-back"};
+    const study::BenchMemory& memory = record_.memory;
+    add(
+        "  device", [](const study::BenchFigures& run) { return run.memory.total(); }, memory.device_peak_total);
+    for (size_t i = 0; i < kNames.size(); ++i)
+      add(
+          kNames[i], [i](const study::BenchFigures& run) { return run.memory.of[i]; }, memory.device_peak.of[i]);
+    Row process = {"  process", mebibytes(memory.host)};
+    if (two_) process.emplace_back();
+    process.push_back(mebibytes(memory.host_peak));
+    rows.push_back(process);
+    return rows;
   }
 
   void rays() {
@@ -148,12 +178,11 @@ class Report {
   std::vector<Row> rates() const {
     const study::DeviceRates& rates = *record_.rates;
     const auto giga = [](double rate) { return number(rate * 1e-9); };
-    std::vector<Row> rows = {
-        {"  copies [GB/s, read and written]", "in cache " + giga(rates.copy.in_cache),
-         "in memory " + giga(rates.copy.in_memory), "by transfer " + giga(rates.copy.transfer)},
-        {"  float operations [10^9/s]", giga(rates.flops)},
-        {"  invocations [10^9/s]", giga(rates.invocations)},
-        {"  a dispatch [ms]", number(rates.dispatch * 1e3)}};
+    std::vector<Row> rows = {{"  copies [GB/s, read and written]", "in cache " + giga(rates.copy.in_cache),
+                              "in memory " + giga(rates.copy.in_memory), "by transfer " + giga(rates.copy.transfer)},
+                             {"  float operations [10^9/s]", giga(rates.flops)},
+                             {"  invocations [10^9/s]", giga(rates.invocations)},
+                             {"  a dispatch [ms]", number(rates.dispatch * 1e3)}};
     for (const auto& [format, rate] : rates.loads)
       rows.push_back({"  " + std::string(format_info(format).name) + " texels [10^9/s]", "read " + giga(rate),
                       "written " + giga(rates.stores.at(format))});
@@ -170,8 +199,9 @@ class Report {
       floor_sum += floor.floor_ms();
       measured_sum += floor.measured_ms;
       rows.push_back({"  " + floor.pass, number(static_cast<double>(floor.bytes_read + floor.bytes_written) * 1e-6),
-                      number(floor.bytes_ms), number(floor.texels_ms), floor.steps_ms > 0 ? number(floor.steps_ms) : "-",
-                      number(floor.floor_ms()), number(floor.measured_ms), number(floor.ratio())});
+                      number(floor.bytes_ms), number(floor.texels_ms),
+                      floor.steps_ms > 0 ? number(floor.steps_ms) : "-", number(floor.floor_ms()),
+                      number(floor.measured_ms), number(floor.ratio())});
     }
     rows.push_back({"  all", "", "", "", "", number(floor_sum), number(measured_sum),
                     floor_sum > 0 ? number(measured_sum / floor_sum) : "-"});

@@ -26,7 +26,7 @@ class Buffer {
  private:
   std::string name_;
   VkDeviceSize size_ = 0;
-  MemoryHandle memory_;
+  Memory memory_;
   BufferHandle buffer_;
   std::span<std::byte> mapped_;
 };

@@ -5,11 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "framework/gpu/handle.hpp"
 #include "framework/gpu/instance.hpp"
+#include "framework/gpu/memory_ledger.hpp"
 
 namespace lightloom::gpu {
 
@@ -81,6 +83,9 @@ class Device {
   [[nodiscard]] uint32_t timestamp_bits() const { return timestamp_bits_; }
   [[nodiscard]] const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
 
+  /// Of what is allocated from it (gpu/memory.hpp).
+  [[nodiscard]] MemoryLedger& memory_ledger() const { return *ledger_; }
+
   [[nodiscard]] bool validating() const { return instance_.validating(); }
   /// Warnings and errors of the validation layer so far (ValidationLog).
   [[nodiscard]] std::vector<ValidationMessage> validation_messages() const { return instance_.log().messages(); }
@@ -109,6 +114,7 @@ class Device {
   void create_device(bool validate);
   void create_commands();
 
+  std::unique_ptr<MemoryLedger> ledger_ = std::make_unique<MemoryLedger>();
   Instance instance_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   DeviceInfo info_;

@@ -60,7 +60,7 @@ class Image {
 
   ImageSpec spec_;
   VkMemoryRequirements requirements_{};
-  MemoryHandle memory_;
+  Memory memory_;
   ImageHandle image_;
   ImageViewHandle full_handle_;
   ImageViewHandle array_handle_;

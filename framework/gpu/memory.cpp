@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <optional>
+#include <utility>
 
 #include "framework/base/error.hpp"
 #include "framework/gpu/result.hpp"
@@ -86,8 +87,14 @@ std::string bytes_text(uint64_t bytes) {
 
 namespace {
 
-MemoryHandle allocate(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
-                      const std::string& owner, const VkMemoryDedicatedAllocateInfo* dedicated) {
+MemoryPurpose purpose_of(MemoryKind kind, const VkMemoryDedicatedAllocateInfo* dedicated) {
+  if (kind != MemoryKind::device) return MemoryPurpose::staging;
+  if (dedicated == nullptr) return MemoryPurpose::shared;
+  return dedicated->image != VK_NULL_HANDLE ? MemoryPurpose::images : MemoryPurpose::buffers;
+}
+
+Memory allocate(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
+                const std::string& owner, const VkMemoryDedicatedAllocateInfo* dedicated) {
   const std::string need = owner + " needs " + bytes_text(requirements.size);
   const uint64_t limit = device.info().max_allocation_bytes;
   if (limit != 0 && requirements.size > limit) {
@@ -115,18 +122,41 @@ MemoryHandle allocate(const Device& device, const VkMemoryRequirements& requirem
                       bytes_text(heap.size) + ")");
   }
   check(result, "vkAllocateMemory for " + owner);
-  return MemoryHandle(device.ref(), memory);
+  return {device, memory, purpose_of(kind, dedicated), requirements.size};
 }
 
 }  // namespace
 
-MemoryHandle allocate_memory(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
-                             const std::string& owner, const VkMemoryDedicatedAllocateInfo& dedicated) {
+Memory::Memory(const Device& device, VkDeviceMemory memory, MemoryPurpose purpose, uint64_t bytes)
+    : handle_(device.ref(), memory), ledger_(&device.memory_ledger()), purpose_(purpose), bytes_(bytes) {
+  ledger_->add(purpose_, bytes_);
+}
+
+Memory::Memory(Memory&& other) noexcept
+    : handle_(std::move(other.handle_)),
+      ledger_(std::exchange(other.ledger_, nullptr)),
+      purpose_(other.purpose_),
+      bytes_(other.bytes_) {}
+
+Memory& Memory::operator=(Memory&& other) noexcept {
+  std::swap(handle_, other.handle_);
+  std::swap(ledger_, other.ledger_);
+  std::swap(purpose_, other.purpose_);
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+
+Memory::~Memory() {
+  if (ledger_ != nullptr) ledger_->remove(purpose_, bytes_);
+}
+
+Memory allocate_memory(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
+                       const std::string& owner, const VkMemoryDedicatedAllocateInfo& dedicated) {
   return allocate(device, requirements, kind, owner, &dedicated);
 }
 
-MemoryHandle allocate_memory(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
-                             const std::string& owner) {
+Memory allocate_memory(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind,
+                       const std::string& owner) {
   return allocate(device, requirements, kind, owner, nullptr);
 }
 

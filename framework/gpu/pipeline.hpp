@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -80,14 +81,19 @@ class PipelineCache {
   const Pipeline& graphics(const ShaderProgram& program, std::span<const ShaderValue> constants,
                            const AttachmentFormats& formats);
   [[nodiscard]] size_t size() const { return pipelines_.size(); }
+  /// What making them took so far. A driver may put a part off to their first use.
+  [[nodiscard]] double milliseconds() const { return milliseconds_; }
   /// Writes to disk what was made since the last time; after a failure, in vain: PipelineFile::statistics has why.
   void save() noexcept;
   [[nodiscard]] const PipelineFile& file() const { return file_; }
 
  private:
+  const Pipeline& make(const std::string& key, const std::function<std::unique_ptr<Pipeline>()>& pipeline);
+
   const Device& device_;
   PipelineFile file_;
   size_t saved_ = 0;  ///< pipelines when last saved
+  double milliseconds_ = 0;
   std::map<std::string, std::unique_ptr<Pipeline>> pipelines_;
 };
 

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <map>
 #include <string>
 
@@ -25,7 +26,7 @@ std::string key_of(const ShaderProgram& program, std::span<const ShaderValue> co
 const Pipeline& PipelineCache::compute(const ShaderProgram& program, std::span<const ShaderValue> constants) {
   const std::string key = key_of(program, constants);
   if (const auto found = pipelines_.find(key); found != pipelines_.end()) return *found->second;
-  return *pipelines_.emplace(key, std::make_unique<Pipeline>(device_, program, constants, file_.get())).first->second;
+  return make(key, [&] { return std::make_unique<Pipeline>(device_, program, constants, file_.get()); });
 }
 
 const Pipeline& PipelineCache::graphics(const ShaderProgram& program, std::span<const ShaderValue> constants,
@@ -33,8 +34,15 @@ const Pipeline& PipelineCache::graphics(const ShaderProgram& program, std::span<
   std::string key = key_of(program, constants) + "|" + std::to_string(formats.depth);
   for (VkFormat format : formats.colors) key += "," + std::to_string(format);
   if (const auto found = pipelines_.find(key); found != pipelines_.end()) return *found->second;
-  return *pipelines_.emplace(key, std::make_unique<Pipeline>(device_, program, constants, formats, file_.get()))
-              .first->second;
+  return make(key, [&] { return std::make_unique<Pipeline>(device_, program, constants, formats, file_.get()); });
+}
+
+const Pipeline& PipelineCache::make(const std::string& key,
+                                    const std::function<std::unique_ptr<Pipeline>()>& pipeline) {
+  const auto start = std::chrono::steady_clock::now();
+  const Pipeline& made = *pipelines_.emplace(key, pipeline()).first->second;
+  milliseconds_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return made;
 }
 
 void PipelineCache::save() noexcept {

@@ -17,12 +17,18 @@ uint64_t texels_of(const Value& value) {
   return uint64_t{extent.width} * extent.height * extent.depth;
 }
 
+/// An attachment that is not blended is written alone.
+bool reads_what_it_writes(Access access) {
+  return access == Access::compute_storage_read_write || access == Access::fragment_storage_read_write;
+}
+
 class Counter {
  public:
-  Counter(const Graph& graph, const GraphPass& pass) : graph_(graph) {
+  Counter(const Graph& graph, const GraphPass& pass, const std::set<std::string>* bound) : graph_(graph) {
     const auto writes_volume = [&](const Use& use) { return is_volume(graph.values[use.value]); };
     whole_volumes_ = std::any_of(pass.outputs.begin(), pass.outputs.end(), writes_volume);
-    for (const Use& use : pass.inputs) add_input(use);
+    for (const Use& use : pass.inputs)
+      if (bound == nullptr || bound->contains(use.shader_name)) add_input(use);
     for (const Use& use : pass.outputs) add_output(use);
     for (const Use& use : pass.scratch) add_scratch(use);
   }
@@ -45,7 +51,7 @@ class Counter {
     const Value& value = graph_.values[use.value];
     if (value.persistent || !value.read) return;
     texels_[value.desc.format].second += texels_of(value);
-    if (access_info(use.access).reads) texels_[value.desc.format].first += texels_of(value);
+    if (reads_what_it_writes(use.access)) texels_[value.desc.format].first += texels_of(value);
   }
 
   void add_scratch(const Use& use) {
@@ -57,7 +63,7 @@ class Counter {
 
   const Graph& graph_;
   bool whole_volumes_ = false;
-  std::set<std::pair<ValueId, uint32_t>> seen_;  ///< value and age: read through two ports, it is moved once
+  std::set<std::pair<ValueId, uint32_t>> seen_;             ///< value and age: read through two ports, it is moved once
   std::map<Format, std::pair<uint64_t, uint64_t>> texels_;  ///< read, written
 };
 
@@ -75,8 +81,8 @@ uint64_t PassTraffic::bytes_written() const {
   return bytes;
 }
 
-PassTraffic traffic_of(const Graph& graph, const GraphPass& pass) {
-  return Counter(graph, pass).traffic();
+PassTraffic traffic_of(const Graph& graph, const GraphPass& pass, const std::set<std::string>* bound) {
+  return Counter(graph, pass, bound).traffic();
 }
 
 }  // namespace lightloom

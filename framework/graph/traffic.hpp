@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "framework/graph/graph.hpp"
@@ -25,6 +27,8 @@ struct PassTraffic {
 /// is written and read. What a pass need not touch does not count: volumes in which a pass looks things up that writes
 /// no volume itself, and values that persist, of which a frame may leave all as it is. Buffers of the scene are not
 /// values, so they do not count either.
-[[nodiscard]] PassTraffic traffic_of(const Graph& graph, const GraphPass& pass);
+/// @param bound what the pass's shaders bind, where that is known: other inputs do not count
+[[nodiscard]] PassTraffic traffic_of(const Graph& graph, const GraphPass& pass,
+                                     const std::set<std::string>* bound = nullptr);
 
 }  // namespace lightloom

@@ -208,6 +208,7 @@ void require_declared_access(const PassType& type, const gpu::Reflection& shader
 void AccessWatch::runs(const GraphPass& pass, const gpu::Reflection& shader, const PlaceOf& place) {
   if (checked_.insert({pass.type, &shader}).second) require_declared_access(*pass.type, shader, place);
   if (ended_.contains(&pass)) return;
+  for (const gpu::Binding& binding : shader.bindings) bound_[pass.name].insert(binding.name);
   for (std::string& name : written_images(shader)) written_.insert(std::move(name));
 }
 

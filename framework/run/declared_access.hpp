@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -34,10 +35,14 @@ class AccessWatch {
   /// The pass has recorded a frame. Throws Error(run_failed) if it was its first and did not write an output that is
   /// read: no command that could was among what it recorded.
   void ends(const Graph& graph, const GraphPass& pass);
+  /// Names of all that the shaders bound which passes ran in their first frame, by pass; none for those that ran no
+  /// shader.
+  [[nodiscard]] const std::map<std::string, std::set<std::string>>& bound() const { return bound_; }
 
  private:
   std::set<std::pair<const PassType*, const gpu::Reflection*>> checked_;
   std::set<const GraphPass*> ended_;
+  std::map<std::string, std::set<std::string>> bound_;
   std::set<std::string> written_;  ///< shader names, by the pass that records its first frame
 };
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "framework/gpu/command_session.hpp"
@@ -96,6 +97,8 @@ class Executor {
   [[nodiscard]] const std::vector<std::string>& scene_warnings() const { return scene_.warnings(); }
   [[nodiscard]] const Plan& plan() const { return plan_; }
   [[nodiscard]] const MemorySharing& memory_sharing() const { return images_.sharing(); }
+  /// AccessWatch::bound, of the passes that have run.
+  [[nodiscard]] const std::map<std::string, std::set<std::string>>& bound_names() const { return watch_.bound(); }
   /// Device memory of all values with their rings [bytes].
   [[nodiscard]] uint64_t value_bytes() const { return images_.bytes(); }
   /// Frames whose images could be on the host, or on their way, at the same time so far.

@@ -1,6 +1,7 @@
 #include "framework/run/shader_library.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "framework/base/interrupt.hpp"
@@ -14,6 +15,7 @@ const gpu::ShaderProgram& ShaderLibrary::program(const std::vector<std::string>&
     return found->second.program;
   }
   stop_if_interrupted();
+  const auto start = std::chrono::steady_clock::now();
   std::vector<gpu::SpirvModule> modules;
   try {
     modules = compiler_.compile_files(files);
@@ -22,6 +24,7 @@ const gpu::ShaderProgram& ShaderLibrary::program(const std::vector<std::string>&
     throw;
   }
   Entry entry{gpu::make_program(std::move(modules)), compiler_.files_read()};
+  compile_milliseconds_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return programs_.emplace(files, std::move(entry)).first->second.program;
 }
 

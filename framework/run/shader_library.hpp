@@ -25,6 +25,8 @@ class ShaderLibrary {
   [[nodiscard]] std::string declaration(const std::vector<std::string>& files, std::string_view name) const {
     return compiler_.declaration(files, name);
   }
+  /// What reading and compiling programs took so far.
+  [[nodiscard]] double compile_milliseconds() const { return compile_milliseconds_; }
   [[nodiscard]] gpu::PipelineCache& pipelines() { return pipelines_; }
 
   /// What was read for the programs that it has, and for those that did not compile since the last `forget`.
@@ -43,6 +45,7 @@ class ShaderLibrary {
   };
   gpu::ShaderCompiler compiler_;
   gpu::PipelineCache pipelines_;
+  double compile_milliseconds_ = 0;
   std::map<std::vector<std::string>, Entry> programs_;
   FileContents failed_;  ///< what was read of shaders that did not compile
 };

@@ -52,7 +52,7 @@ class ValueImages {
   };
   void bind(const gpu::Device& device);
 
-  std::vector<gpu::MemoryHandle> heaps_;  ///< outlive the images
+  std::vector<gpu::Memory> heaps_;  ///< outlive the images
   MemorySharing sharing_;
   std::vector<Entry> entries_;
 };

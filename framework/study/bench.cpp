@@ -17,19 +17,31 @@ double milliseconds_since(Clock::time_point start) {
 /// A run that is set up, and what it has cost so far.
 class Measured {
  public:
-  Measured(gpu::Device& device, const scene::Scene& scene, const BenchRun& run) {
+  Measured(gpu::Device& device, const scene::Scene& scene, const BenchRun& run) : device_(&device) {
     figures_.name = run.name;
     figures_.plan_ms = run.plan_ms;
+    run::ExecutorOptions options = run.options;
+    if (!options.library) options.library = run::make_library(device, options.shaders);
+    library_ = options.library;
+    const gpu::MemoryBytes before = device.memory_ledger().now();
     const Clock::time_point start = Clock::now();
-    executor_ = std::make_unique<run::Executor>(device, run.plan, scene, run.options);
+    executor_ = std::make_unique<run::Executor>(device, run.plan, scene, options);
     figures_.setup_ms = milliseconds_since(start);
+    add_memory(before);
     figures_.value_bytes = executor_->value_bytes();
   }
 
   void first_frame(uint32_t frame) {
+    const gpu::MemoryBytes before = device_->memory_ledger().now();
+    const double shaders_before = library_->compile_milliseconds();
+    const double pipelines_before = library_->pipelines().milliseconds();
     const Clock::time_point start = Clock::now();
     const run::FrameResult result = executor_->run_frame(frame);
     figures_.first_frame_ms = milliseconds_since(start);
+    figures_.shaders_ms = library_->compile_milliseconds() - shaders_before;
+    figures_.pipelines_ms = library_->pipelines().milliseconds() - pipelines_before;
+    figures_.bound_names = executor_->bound_names();
+    add_memory(before);
     for (const run::PassTime& time : result.once_times) figures_.once.emplace_back(time.pass, time.milliseconds);
     for (const run::PassTime& time : result.times) figures_.passes.push_back(time.pass);
     figures_.pass_ms.resize(figures_.passes.size());
@@ -58,6 +70,14 @@ class Measured {
   }
 
  private:
+  /// What was allocated since, and is still there.
+  void add_memory(const gpu::MemoryBytes& before) {
+    const gpu::MemoryBytes now = device_->memory_ledger().now();
+    for (size_t i = 0; i < now.of.size(); ++i) figures_.memory.of[i] += now.of[i] - before.of[i];
+  }
+
+  gpu::Device* device_;
+  std::shared_ptr<run::ShaderLibrary> library_;
   std::unique_ptr<run::Executor> executor_;
   BenchFigures figures_;
 };

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,8 +50,20 @@ struct BenchFigures {
   std::vector<std::string> passes;                   ///< what every frame runs, in order
   std::vector<std::vector<double>> pass_ms;          ///< [pass][frame], measured one by one in frames of their own;
                                                      ///< empty where the device has no timestamps
+  double shaders_ms = 0;                             ///< of the first frame: reading and compiling shaders …
+  double pipelines_ms = 0;                           ///< … and making pipelines
   uint64_t value_bytes = 0;                          ///< device memory of the values
+  gpu::MemoryBytes memory;                           ///< device memory of the whole run after its first frame
+  std::map<std::string, std::set<std::string>> bound_names;  ///< Executor::bound_names
   std::optional<RayCounts> rays;
+};
+
+/// What the process held when the last frame was measured.
+struct BenchMemory {
+  uint64_t host = 0;             ///< [bytes]; of a device that is a CPU, the device's are among them
+  uint64_t host_peak = 0;        ///< so far
+  gpu::MemoryBytes device_peak;  ///< so far, of each purpose
+  uint64_t device_peak_total = 0;
 };
 
 /// Called with how many of all frames are done.

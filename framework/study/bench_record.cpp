@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "framework/base/hash.hpp"
-#include "framework/base/process.hpp"
 #include "framework/run/provenance.hpp"
 #include "framework/run/version.hpp"
 
@@ -15,6 +14,13 @@ using Json = nlohmann::ordered_json;
 Json timing_json(const std::vector<double>& milliseconds) {
   const Timing timing = timing_of(milliseconds);
   return {{"median", timing.median}, {"p95", timing.p95}, {"samples", milliseconds}};
+}
+
+Json memory_json(const gpu::MemoryBytes& bytes, uint64_t total) {
+  Json json = {{"total", total}};
+  for (size_t i = 0; i < bytes.of.size(); ++i)
+    json[std::string(gpu::to_string(static_cast<gpu::MemoryPurpose>(i)))] = bytes.of[i];
+  return json;
 }
 
 Json rays_json(const BenchFigures& figures) {
@@ -30,6 +36,8 @@ Json run_json(const BenchFigures& figures, const Plan& plan) {
   Json once = {{"plan_ms", figures.plan_ms},
                {"setup_ms", figures.setup_ms},
                {"first_frame_ms", figures.first_frame_ms},
+               {"shaders_ms", figures.shaders_ms},
+               {"pipelines_ms", figures.pipelines_ms},
                {"hoisted", Json::object()}};
   for (const auto& [pass, milliseconds] : figures.once) once["hoisted"][pass] = milliseconds;
   Json passes = Json::object();
@@ -45,6 +53,7 @@ Json run_json(const BenchFigures& figures, const Plan& plan) {
           {"passes", std::move(passes)},
           {"once", std::move(once)},
           {"value_memory_bytes", figures.value_bytes},
+          {"device_bytes", memory_json(figures.memory, figures.memory.total())},
           {"rays", rays_json(figures)}};
 }
 
@@ -96,12 +105,19 @@ double per_second(double count, const BenchFigures& figures) {
 }
 
 Json bench_json(const BenchRecord& record, const scene::Scene& scene) {
-  Json json = {{"lightloom", run::version()},           {"commit", run::commit()},
-               {"command_line", record.command_line},   {"device", run::device_record(record.device)},
-               {"scene", run::scene_record(scene)},     {"first_frame", record.settings.first_frame},
-               {"frames", record.settings.frames},      {"warm_up", record.settings.warm_up},
-               {"scene_ms", record.scene_ms},           {"device_ms", record.device_ms},
-               {"host_peak_bytes", peak_memory_bytes()}};
+  Json json = {{"lightloom", run::version()},
+               {"commit", run::commit()},
+               {"command_line", record.command_line},
+               {"device", run::device_record(record.device)},
+               {"scene", run::scene_record(scene)},
+               {"first_frame", record.settings.first_frame},
+               {"frames", record.settings.frames},
+               {"warm_up", record.settings.warm_up},
+               {"scene_ms", record.scene_ms},
+               {"device_ms", record.device_ms},
+               {"host_bytes", record.memory.host},
+               {"host_peak_bytes", record.memory.host_peak},
+               {"device_peak_bytes", memory_json(record.memory.device_peak, record.memory.device_peak_total)}};
   if (record.rates) json["device_rates"] = rates_json(*record.rates);
   const auto run = [&](size_t index) {
     Json figures = run_json(record.runs[index], record.plans[index]);

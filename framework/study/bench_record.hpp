@@ -24,7 +24,8 @@ struct BenchRecord {
   double device_ms = 0;            ///< opening the device
   std::vector<BenchFigures> runs;  ///< one or two
   std::vector<Plan> plans;         ///< of the runs
-  std::optional<DeviceRates> rates;             ///< where floors are wanted
+  BenchMemory memory;
+  std::optional<DeviceRates> rates;              ///< where floors are wanted
   std::vector<std::vector<PassFloor>> floors{};  ///< of the runs, there
 };
 

@@ -13,9 +13,9 @@
 namespace lightloom::study {
 namespace {
 
-constexpr uint64_t kCached = 256 << 10, kLarge = 64 << 20;  ///< bytes of one buffer of a copy
-constexpr uint32_t kFetches = 64;                          ///< of each invocation
-constexpr std::array<uint32_t, 2> kRays = {160, 120};      ///< invocations of a layer of fetches
+constexpr uint64_t kCached = 256 << 10, kLarge = 48 << 20;  ///< bytes of one buffer of a copy
+constexpr uint32_t kFetches = 64;                           ///< of each invocation
+constexpr std::array<uint32_t, 2> kRays = {160, 120};       ///< invocations of a layer of fetches
 constexpr uint32_t kLeastPicture = 64;
 
 gpu::Image ready_image(gpu::Device& device, const gpu::ImageSpec& spec, const ClearColor& color) {
@@ -53,8 +53,8 @@ double copy_rate(RateMeter& meter, uint64_t bytes, bool by_shader) {
   const double moved = 2.0 * static_cast<double>(bytes);
   if (!by_shader) {
     const VkBufferCopy copy{0, 0, bytes};
-    return moved *
-           meter.per_second([&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, from.get(), to.get(), 1, &copy); });
+    return moved * meter.per_second(
+                       [&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, from.get(), to.get(), 1, &copy); });
   }
   const auto count = static_cast<uint32_t>(bytes / 16);
   return moved * meter.per_second({.shader = "copy.comp",
@@ -69,8 +69,8 @@ double texel_rate(RateMeter& meter, const char* shader, Format format, const Ext
   constexpr uint32_t kTexels = 8;  // of an invocation, as in the shaders
   const bool is_unsigned = format_info(format).numeric == NumericClass::unsigned_integer;
   const gpu::Image image = ready_image(meter.device(), picture_spec(format, extent), {0.25f, 0.5f, 0.75f, 1});
-  const gpu::Image other = ready_image(
-      meter.device(), picture_spec(is_unsigned ? Format::rgba8_unorm : Format::r32_uint, {}), {});
+  const gpu::Image other =
+      ready_image(meter.device(), picture_spec(is_unsigned ? Format::rgba8_unorm : Format::r32_uint, {}), {});
   const uint32_t rows = extent.height / kTexels;
   return static_cast<double>(extent.width) * rows * kTexels *
          meter.per_second({.shader = shader,
@@ -82,14 +82,13 @@ double texel_rate(RateMeter& meter, const char* shader, Format format, const Ext
 }
 
 FetchRates fetch_rates(RateMeter& meter, uint32_t side) {
-  const gpu::Image volume =
-      ready_image(meter.device(),
-                  {.format = VK_FORMAT_R8_UNORM,
-                   .dimension = Dimension::d3,
-                   .extent = {side, side, side},
-                   .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                   .name = "volume of " + std::to_string(side)},
-                  {2.0f / 255, 0, 0, 0});  // a middling clearance
+  const gpu::Image volume = ready_image(meter.device(),
+                                        {.format = VK_FORMAT_R8_UNORM,
+                                         .dimension = Dimension::d3,
+                                         .extent = {side, side, side},
+                                         .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                         .name = "volume of " + std::to_string(side)},
+                                        {2.0f / 255, 0, 0, 0});  // a middling clearance
   const auto rate = [&](bool scattered) {
     return static_cast<double>(kRays[0]) * kRays[1] * kFetches *
            meter.per_second({.shader = "fetch.comp",
@@ -165,9 +164,7 @@ nlohmann::ordered_json rates_json(const DeviceRates& rates) {
   for (const FetchRates& rate : rates.fetches)
     fetches[std::to_string(rate.side)] = {{"marching", rate.marching}, {"scattered", rate.scattered}};
   return {{"copy_bytes_per_second",
-           {{"in_cache", rates.copy.in_cache},
-            {"in_memory", rates.copy.in_memory},
-            {"transfer", rates.copy.transfer}}},
+           {{"in_cache", rates.copy.in_cache}, {"in_memory", rates.copy.in_memory}, {"transfer", rates.copy.transfer}}},
           {"load_texels_per_second", texels(rates.loads)},
           {"store_texels_per_second", texels(rates.stores)},
           {"volume_fetches_per_second", std::move(fetches)},

@@ -15,8 +15,8 @@ namespace lightloom::study {
 /// Bytes that are read and as many that are written, both counted [1/s].
 struct CopyRates {
   double in_cache = 0;   ///< by a shader, 256 KiB to 256 KiB
-  double in_memory = 0;  ///< by a shader, 64 MiB to 64 MiB
-  double transfer = 0;   ///< by the device's own copy, 64 MiB to 64 MiB
+  double in_memory = 0;  ///< by a shader, 48 MiB to 48 MiB
+  double transfer = 0;   ///< by the device's own copy, 48 MiB to 48 MiB
   /// The best that large copies reach.
   [[nodiscard]] double best() const;
 };

@@ -19,8 +19,7 @@ std::array<std::pair<std::string_view, double>, 4> bounds(const PassFloor& floor
 
 std::pair<std::string_view, double> highest(const PassFloor& floor) {
   const auto all = bounds(floor);
-  return *std::max_element(all.begin(), all.end(),
-                           [](const auto& a, const auto& b) { return a.second < b.second; });
+  return *std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
 }
 
 /// Texels of a format that was not measured do not count.
@@ -44,9 +43,9 @@ double marching_rate(const Graph& graph, const GraphPass& pass, const DeviceRate
     if (desc.dimension != Dimension::d3 || desc.format != Format::r8_unorm || rates.fetches.empty()) continue;
     const double side = std::cbrt(static_cast<double>(byte_size(desc)));
     const auto distance = [&](const FetchRates& rate) { return std::abs(std::log(side / rate.side)); };
-    return std::min_element(rates.fetches.begin(), rates.fetches.end(), [&](const auto& a, const auto& b) {
-             return distance(a) < distance(b);
-           })->marching;
+    return std::min_element(rates.fetches.begin(), rates.fetches.end(),
+                            [&](const auto& a, const auto& b) { return distance(a) < distance(b); })
+        ->marching;
   }
   return 0;
 }
@@ -90,7 +89,9 @@ std::vector<PassFloor> floors_of(const Plan& plan, const BenchFigures& figures, 
   std::vector<PassFloor> floors;
   for (const PlanStep& step : plan.steps) {
     const GraphPass& pass = plan.graph.passes[step.pass];
-    const PassTraffic traffic = traffic_of(plan.graph, pass);
+    const auto bound = figures.bound_names.find(pass.name);
+    const PassTraffic traffic =
+        traffic_of(plan.graph, pass, bound == figures.bound_names.end() ? nullptr : &bound->second);
     PassFloor floor{.pass = pass.name, .bytes_read = traffic.bytes_read(), .bytes_written = traffic.bytes_written()};
     if (rates.copy.best() > 0)
       floor.bytes_ms = static_cast<double>(floor.bytes_read + floor.bytes_written) / rates.copy.best() * 1e3;
@@ -109,11 +110,11 @@ std::vector<PassFloor> floors_of(const Plan& plan, const BenchFigures& figures, 
 nlohmann::ordered_json floors_json(const std::vector<PassFloor>& floors) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const PassFloor& floor : floors) {
-    json[floor.pass] = {{"bytes_read", floor.bytes_read},     {"bytes_written", floor.bytes_written},
-                        {"bytes_ms", floor.bytes_ms},         {"texels_ms", floor.texels_ms},
-                        {"steps_ms", floor.steps_ms},         {"dispatch_ms", floor.dispatch_ms},
-                        {"floor_ms", floor.floor_ms()},       {"bound", floor.bound()},
-                        {"measured_ms", floor.measured_ms},   {"ratio", floor.ratio()}};
+    json[floor.pass] = {{"bytes_read", floor.bytes_read},   {"bytes_written", floor.bytes_written},
+                        {"bytes_ms", floor.bytes_ms},       {"texels_ms", floor.texels_ms},
+                        {"steps_ms", floor.steps_ms},       {"dispatch_ms", floor.dispatch_ms},
+                        {"floor_ms", floor.floor_ms()},     {"bound", floor.bound()},
+                        {"measured_ms", floor.measured_ms}, {"ratio", floor.ratio()}};
   }
   return json;
 }

@@ -11,7 +11,7 @@
 namespace lightloom::study {
 namespace {
 
-constexpr double kLongEnough = 4e-3;  ///< [s]; far more than what a timestamp and a dispatch take
+constexpr double kLongEnough = 4e-3;       ///< [s]; far more than what a timestamp and a dispatch take
 constexpr uint32_t kMostTimes = 1u << 15;  ///< less than any device's limit of groups along z
 constexpr int kTries = 7;
 

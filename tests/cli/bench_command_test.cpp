@@ -11,6 +11,7 @@ namespace lightloom::cli {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class BenchCommand : public ProgramTest {
  protected:
@@ -27,7 +28,7 @@ class BenchCommand : public ProgramTest {
 };
 
 TEST_F(BenchCommand, MeasuresTwoRunsBesideEachOther) {
-  ASSERT_EQ(bench({"--disable", "denoise_*", "--json", "--count-rays",
+  ASSERT_EQ(bench({"--disable", "denoise_*", "--json", "--floors",
                    "--against=--size 16x12 --set resolution=16 --variant raw"}),
             0)
       << err_;
@@ -39,9 +40,22 @@ TEST_F(BenchCommand, MeasuresTwoRunsBesideEachOther) {
     EXPECT_EQ(run["passes"]["trace"]["samples"].size(), 7u);
     EXPECT_GT(run["rays"]["rays_per_second"], 0.0);
     EXPECT_GT(run["once"]["first_frame_ms"], 0.0);
+    EXPECT_GT(run["once"]["pipelines_ms"], 0.0);
+    EXPECT_GT(run["once"]["shaders_ms"], 0.0);
+    EXPECT_LT(run["once"]["pipelines_ms"].get<double>() + run["once"]["shaders_ms"].get<double>(),
+              run["once"]["first_frame_ms"]);
     EXPECT_GT(run["value_memory_bytes"], 0);
+    EXPECT_GE(run["device_bytes"]["total"], run["value_memory_bytes"]);
+    for (const char* purpose : {"images", "buffers", "shared", "staging"})
+      EXPECT_GT(run["device_bytes"][purpose], 0) << purpose;
+    EXPECT_GT(run["floors"]["trace"]["steps_ms"], 0.0) << "where floors are wanted, rays are counted";
+    EXPECT_EQ(run["floors"]["tonemap"]["bytes_written"], 16 * 12 * 4);
+    EXPECT_EQ(run["floors"]["tonemap"]["measured_ms"], run["passes"]["tonemap"]["median"]);
   }
-  EXPECT_GT(json["host_peak_bytes"], 0);
+  EXPECT_GE(json["device_peak_bytes"]["total"], json["device_bytes"]["total"]);
+  EXPECT_GT(json["device_rates"]["copy_bytes_per_second"]["transfer"], 0.0);
+  EXPECT_GT(json["host_bytes"], 0);
+  EXPECT_GE(json["host_peak_bytes"], json["host_bytes"]);
   EXPECT_EQ(json["comparison"]["frame"]["pairs"], 7);
   EXPECT_TRUE(json["comparison"]["passes"].contains("trace"));
   EXPECT_FALSE(json["comparison"]["passes"].contains("temporal")) << "the second run has none";
@@ -57,6 +71,9 @@ TEST(BenchReport, IsATableOfPassesWithWhatIsSpentOnce) {
   run.passes = {"trace", "tonemap"};
   run.pass_ms = {{8, 9}, {1, 1}};
   run.rays = study::RayCounts{{"trace"}, 1000, 5000};
+  run.once = {{"voxelize", 7}};
+  run.memory.of = {2 << 20, 1 << 20, 0, 0};
+  record.memory.device_peak_total = 4 << 20;
   record.runs = {run};
   record.plans = {Plan{}};
   const std::string text = bench_report(record);
@@ -65,7 +82,32 @@ TEST(BenchReport, IsATableOfPassesWithWhatIsSpentOnce) {
   EXPECT_THAT(text, HasSubstr("passes alone, together  9.5     9.95"));
   EXPECT_THAT(text, HasSubstr("  trace                 8.5     8.95"));
   EXPECT_THAT(text, HasSubstr("1000 rays a frame, 5000 steps (5 a ray); 0.118 million rays"));
-  EXPECT_THAT(text, HasSubstr("first frame, pipelines made"));
+  EXPECT_THAT(text, HasSubstr("pipelines made"));
+  EXPECT_THAT(text, HasSubstr("    voxelize, hoisted              7"));
+  EXPECT_THAT(text, HasSubstr("  device                   3    4"));
+  EXPECT_THAT(text, Not(HasSubstr("near the limit")));
+}
+
+TEST(BenchReport, SetsFloorsBesideWhatWasMeasured) {
+  study::BenchRecord record;
+  study::BenchFigures run;
+  run.frame_ms = {10};
+  record.runs = {run};
+  record.plans = {Plan{}};
+  record.rates.emplace().copy = {.in_cache = 4e9, .in_memory = 2e9, .transfer = 1e9};
+  record.floors = {{{.pass = "trace",
+                     .bytes_read = 1'500'000,
+                     .bytes_written = 500'000,
+                     .bytes_ms = 1,
+                     .texels_ms = 2,
+                     .steps_ms = 4,
+                     .measured_ms = 8},
+                    {.pass = "tonemap", .bytes_ms = 0.5, .texels_ms = 1, .measured_ms = 1}}};
+  const std::string text = bench_report(record);
+  EXPECT_THAT(text, HasSubstr("in cache 4  in memory 2  by transfer 1"));
+  EXPECT_THAT(text, HasSubstr("  trace    2   1         2          4         4      8         2"));
+  EXPECT_THAT(text, HasSubstr("  tonemap  0   0.5       1          -         1      1         1"));
+  EXPECT_THAT(text, HasSubstr("  all                                         5      9         1.8"));
 }
 
 TEST_F(BenchCommand, MistakesInTheSecondRunAreMistakesOfUsage) {
