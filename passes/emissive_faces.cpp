@@ -76,8 +76,9 @@ void record(PassContext& context) {
     context.dispatch(box_dispatch("emissive_faces.comp", box, {}, grid.depth));
   const Extent3 groups{kRowInvocations, grid.height, 1};
   context.dispatch({"emissive_faces_rows.comp", groups, {{"writing", false}}});
-  context.dispatch({"emissive_faces_scan.comp", {1, 1, 1}, {}});
+  context.dispatch({"emissive_faces_scan.comp", {1, 1, 1}, {{"finishing", false}}});
   context.dispatch({"emissive_faces_rows.comp", groups, {{"writing", true}}});
+  context.dispatch({"emissive_faces_scan.comp", {1, 1, 1}, {{"finishing", true}}});
 }
 
 }  // namespace

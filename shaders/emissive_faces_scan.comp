@@ -1,5 +1,7 @@
 // Third part of the pass `emissive_faces`: finds where each row's part of the list begins and what of the list changes,
-// and writes its head. One work group: each invocation sums a run of rows, the runs are scanned in shared memory.
+// and writes its head. One work group: each invocation sums a run of rows, the runs are scanned in shared memory. Run
+// once more after the list is written, it forgets what changed: what is kept for the next frame must not tell how it
+// came about.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,11 +13,17 @@ layout(local_size_x = 64) in;
 
 uniform writeonly uimage2D out_faces;
 
+layout(constant_id = 0) const bool finishing = false;
+
 shared uvec2 run_sums[kInvocations];
 shared uint first_dirty;
 
 void main() {
   int invocation = int(gl_LocalInvocationID.x);
+  if (finishing) {
+    if (invocation == kFirstRow || invocation == kOldFaces) set_row(kState, invocation, 0u);
+    return;
+  }
   int count = textureSize(voxels_albedo, 0).y;
   int run = (count + kInvocations - 1) / kInvocations;
   int first = min(invocation * run, count);
