@@ -101,21 +101,39 @@ MarchHit march_spheres(texture3D distance_field, vec3 origin, vec3 direction, fl
   return MarchHit(true, voxel, t, entry_face(voxel, origin, direction));
 }
 
+// Where a ray begins its way through the grid.
+struct GridEntry {
+  bool enters;   // before its end
+  vec3 safe;     // its direction, without zeros
+  float t;       // [voxels]
+  ivec3 voxel;
+  int axis;      // of the face of the grid through which it comes; -1: it starts within
+};
+
+GridEntry enter_grid(ivec3 size, vec3 origin, vec3 direction, float end) {
+  vec3 safe = safe_direction(direction);
+  vec3 near, far;
+  box_slabs(origin, direction, vec3(size), near, far);
+  precise float t = max(greatest_of(near), 0.0);
+  precise vec3 position = origin + direction * t;
+  ivec3 voxel = clamp(ivec3(floor(position)), ivec3(0), size - 1);
+  int axis = t > 0.0 ? axis_of(near, t) : -1;
+  if (axis >= 0) voxel[axis] = safe[axis] > 0.0 ? 0 : size[axis] - 1;
+  return GridEntry(t <= least_of(far) && t <= end, safe, t, voxel, axis);
+}
+
 // First occupied voxel that the ray enters up to `end`. Positions follow from the origin alone and voxels are counted
 // in whole numbers: on the axis of the exit the next voxel is known, on the others it lies within the cube, whatever
 // rounding says.
 MarchHit march_cubes(texture3D distance_field, vec3 origin, vec3 direction, float end) {
   ivec3 size = textureSize(distance_field, 0);
-  vec3 safe = safe_direction(direction);
+  GridEntry entry = enter_grid(size, origin, direction, end);
+  if (!entry.enters) return MarchHit(false, ivec3(-1), end, ivec3(0));
+  vec3 safe = entry.safe;
   bvec3 forward = greaterThan(safe, vec3(0.0));
-  vec3 near, far;
-  box_slabs(origin, direction, vec3(size), near, far);
-  precise float t = max(greatest_of(near), 0.0);
-  if (!(t <= least_of(far) && t <= end)) return MarchHit(false, ivec3(-1), end, ivec3(0));
-  precise vec3 position = origin + direction * t;
-  ivec3 voxel = clamp(ivec3(floor(position)), ivec3(0), size - 1);
-  int axis = t > 0.0 ? axis_of(near, t) : -1;
-  if (axis >= 0) voxel[axis] = forward[axis] ? 0 : size[axis] - 1;
+  precise float t = entry.t;
+  ivec3 voxel = entry.voxel;
+  int axis = entry.axis;
   int limit = size.x + size.y + size.z + 8;
   bool found = false;
   for (int step_count = 0; step_count < limit; ++step_count) {

@@ -11,16 +11,13 @@ layout(constant_id = 27) const bool boxes_bound = false;
 // As march_cubes; the box reaches from the voxel to where the ray goes. Whole numbers are kept as floats, which hold
 // them exactly and spare conversions.
 MarchHit march_boxes(ivec3 size, vec3 origin, vec3 direction, float end) {
-  vec3 safe = safe_direction(direction);
+  GridEntry entry = enter_grid(size, origin, direction, end);
+  if (!entry.enters) return MarchHit(false, ivec3(-1), end, ivec3(0));
+  vec3 safe = entry.safe;
   bvec3 forward = greaterThan(safe, vec3(0.0));
-  vec3 near, far;
-  box_slabs(origin, direction, vec3(size), near, far);
-  precise float t = max(greatest_of(near), 0.0);
-  if (!(t <= least_of(far) && t <= end)) return MarchHit(false, ivec3(-1), end, ivec3(0));
-  precise vec3 position = origin + direction * t;
-  vec3 voxel = clamp(floor(position), vec3(0.0), vec3(size) - 1.0);
-  int axis = t > 0.0 ? axis_of(near, t) : -1;
-  if (axis >= 0) voxel[axis] = forward[axis] ? 0.0 : float(size[axis] - 1);
+  precise float t = entry.t;
+  vec3 voxel = vec3(entry.voxel);
+  int axis = entry.axis;
   bvec3 falling = not(forward);
   vec3 way = mix(vec3(-1.0), vec3(1.0), forward);
   vec3 far_side = mix(vec3(1.0), vec3(0.0), forward);
