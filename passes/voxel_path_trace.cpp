@@ -69,6 +69,11 @@ std::vector<Param> params() {
           "emitter_area", "voxels", {"voxels", "surface"},
           "radiance of emissive voxels: the material's, so that a lamp narrower than a voxel is too bright; or "
           "scaled, by input `power`, so that all voxels of an emission have the power of its triangles, at most by 4"),
+      integer_param(
+          "roulette", 0, 0, 64, "",
+          "Russian roulette: from this vertex after the first hit on, a path goes on with the probability of the "
+          "brightest channel of what it still carries, at least 1/20, and carries more by as much: fewer rays, more "
+          "noise, the same mean; 0: never"),
   });
 }
 

@@ -27,12 +27,15 @@ layout(push_constant) uniform Params {
   uint paths;
   uint bounces;
   float regularization;
+  uint roulette;
 };
 
 layout(constant_id = 3) const bool counts_wanted = false;
 
 // Voxel normals are 0.8 degrees off and tangents up to 10: a sharper lobe would only turn that into speckle.
 const float kVoxelMinimumAlpha = 0.03;
+
+const float kLeastSurvival = 0.05;   // a path that carries next to nothing still ends within a few vertices
 
 // Is there light that the last ray of a path could meet?
 const bool kRaysFindLight = has_emissive || has_environment || has_sun;
@@ -68,6 +71,15 @@ PathVertex voxel_vertex(Grid grid, MarchHit hit, vec3 origin, vec3 direction, Vo
   return vertex;
 }
 
+// Does a path that carries `throughput` from vertex `bounce` on go further? If so it carries more by as much as this was
+// unlikely. `u`: a uniform number.
+bool survives(uint bounce, float u, inout vec3 throughput) {
+  if (roulette == 0u || bounce < roulette) return true;
+  float chance = clamp(max(throughput.r, max(throughput.g, throughput.b)), kLeastSurvival, 1.0);
+  throughput /= chance;
+  return u < chance;
+}
+
 // Light that arrives at vertex 0 along the scattered ray.
 vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey key) {
   vec3 radiance = vec3(0.0);
@@ -94,9 +106,10 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
     PerLobe direct = direct_light(grid, distance, voxels_normal, voxels_material, vertex, key, bounce);
     radiance += throughput * (direct.diffuse + direct.specular);
     if (bounce == bounces && !kRaysFindLight) break;
-    scatter = bsdf_sample(vertex.bsdf, vertex.incoming, random4(key, bounce, kDimensionScatter).xyz);
+    vec4 u = random4(key, bounce, kDimensionScatter);
+    scatter = bsdf_sample(vertex.bsdf, vertex.incoming, u.xyz);
     throughput *= scatter.weight;
-    if (throughput == vec3(0.0)) break;
+    if (throughput == vec3(0.0) || !survives(bounce, u.w, throughput)) break;
   }
   return radiance;
 }

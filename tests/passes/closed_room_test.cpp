@@ -49,7 +49,9 @@ std::string outputs(const std::vector<int>& bounces) {
   return text;
 }
 
-TEST_F(ClosedRoom, EmissiveBoxSumsTheSeriesOfItsBounces) {
+class EmissiveBox : public ClosedRoom, public testing::WithParamInterface<const char*> {};
+
+TEST_P(EmissiveBox, SumsTheSeriesOfItsBounces) {
   const std::vector<int> bounces = {0, 1, 2, 3, 4, 5};
   // About 0.5 and 0.8: voxels hold square roots in 8 bits, and these they hold exactly.
   for (const double root : {180.0 / 255, 228.0 / 255}) {
@@ -62,8 +64,10 @@ TEST_F(ClosedRoom, EmissiveBoxSumsTheSeriesOfItsBounces) {
         make_quad_scene(walls(glm::vec3(-1), glm::vec3(1), 0), {wall}, look_at({0, 0, 0}, {0.3f, -0.2f, 1}, 1.2f));
     GraphRunOptions options;
     options.frames = 8;
-    const std::vector<Images> frames = run_graph(
-        graph_text(kSize, kSize, kSize, kSize, traces(34, bounces, R"("paths": 8)"), outputs(bounces)), scene, options);
+    const std::vector<Images> frames =
+        run_graph(graph_text(kSize, kSize, kSize, kSize, traces(34, bounces, R"("paths": 8)" + std::string(GetParam())),
+                             outputs(bounces)),
+                  scene, options);
     for (const int bounce : bounces) {
       // Light scattered 1 to bounce + 1 times, over the albedo that radiance is divided by.
       const double expected = 2 * (1 - std::pow(albedo, bounce + 1)) / (1 - albedo);
@@ -72,6 +76,31 @@ TEST_F(ClosedRoom, EmissiveBoxSumsTheSeriesOfItsBounces) {
           << albedo << " " << bounce << ": " << whole.mean << " +- " << whole.error << ", not " << expected;
     }
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Paths, EmissiveBox, testing::Values("", R"(, "roulette": 1)", R"(, "roulette": 3)"), [](const auto& roulette) {
+      return "roulette_" + std::string(roulette.index == 0 ? "never" : roulette.index == 1 ? "at_once" : "later");
+    });
+
+TEST_F(ClosedRoom, RouletteEndsPathsEarly) {
+  scene::Material wall = lambertian(glm::vec3(0.3f));
+  wall.double_sided = true;
+  const scene::Scene scene =
+      make_quad_scene(walls(glm::vec3(-1), glm::vec3(1), 0), {wall}, look_at({0, 0, 0}, {0.3f, -0.2f, 1}, 1.2f));
+  const auto rays = [&](const std::string& roulette) {
+    const Images images =
+        run_graph(graph_text(kSize, kSize, kSize, kSize,
+                             traces(34, {8}, R"("paths": 4, "strategy": "bsdf", "roulette": )" + roulette),
+                             R"("counts": "trace8.counts")"),
+                  scene)
+            .front();
+    double sum = 0;
+    for (uint32_t y = 0; y < kSize; ++y)
+      for (uint32_t x = 0; x < kSize; ++x) sum += images.at("counts").at(x, y, 0, 0);
+    return sum;
+  };
+  EXPECT_LT(rays("1"), 0.4 * rays("0"));
 }
 
 /// Two rooms that share a wall without thickness, with a lamp in one; seen from the other. All of it turned.
