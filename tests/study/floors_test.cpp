@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "passes/registry.hpp"
 #include "tests/graph/toy_graphs.hpp"
 #include "tests/support/device_fixture.hpp"
