@@ -108,6 +108,8 @@ class Browser:
 
     def centre(self, selector):
         self.run("document.querySelector(arguments[0]).scrollIntoView({block: 'center', behavior: 'instant'})", selector)
+        # The page hears of the scrolling in the next frame, which may come late, and hides what hovering has shown.
+        self.run("return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")
         box = self.run("const b = document.querySelector(arguments[0]).getBoundingClientRect();"
                        "return [b.left + b.width / 2, b.top + b.height / 2]", selector)
         return round(box[0]), round(box[1])
