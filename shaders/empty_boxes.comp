@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/empty_box.glsl"
+#include "lib/voxel_distance.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -23,7 +24,7 @@ ivec3 first_box(int empty, ivec3 voxel, ivec3 size, bvec3 falling) {
 }
 
 uvec4 first_texel(ivec3 voxel, ivec3 size) {
-  int empty = int(round(texelFetch(distance, voxel, 0).r * 255.0));
+  int empty = voxel_distance(distance, voxel);
   uvec4 texel = uvec4(0u);
   for (int signs = 0; signs < 8; ++signs) {
     bvec3 falling = bvec3((signs & 1) != 0, (signs & 2) != 0, (signs & 4) != 0);

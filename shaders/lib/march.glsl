@@ -13,6 +13,8 @@
 #ifndef LIGHTLOOM_LIB_MARCH
 #define LIGHTLOOM_LIB_MARCH
 
+#include "lib/voxel_distance.glsl"
+
 const uint kMarchSphere = 0u;
 const uint kMarchCubeExit = 1u;
 const uint kMarchDda = 2u;
@@ -62,11 +64,6 @@ ivec3 entry_face(ivec3 voxel, vec3 origin, vec3 direction) {
   vec3 near, far;
   box_slabs(origin - vec3(voxel), direction, vec3(1.0), near, far);
   return face_towards(axis_of(near, greatest_of(near)), direction);
-}
-
-// Distance to the nearest occupied voxel, 0 in one.
-int voxel_distance(texture3D distance_field, ivec3 voxel) {
-  return int(round(texelFetch(distance_field, voxel, 0).r * 255.0));
 }
 
 bool within(ivec3 voxel, ivec3 size) {
@@ -122,6 +119,12 @@ GridEntry enter_grid(ivec3 size, vec3 origin, vec3 direction, float end) {
   return GridEntry(t <= least_of(far) && t <= end, safe, t, voxel, axis);
 }
 
+// What a march found that came to `voxel` at `t` through a face of `axis`, or started in it (-1).
+MarchHit march_end(bool found, ivec3 voxel, float t, int axis, vec3 origin, vec3 direction, float end) {
+  if (!found) return MarchHit(false, ivec3(-1), min(end, t), ivec3(0));
+  return MarchHit(true, voxel, t, axis >= 0 ? face_towards(axis, direction) : entry_face(voxel, origin, direction));
+}
+
 // First occupied voxel that the ray enters up to `end`. Positions follow from the origin alone and voxels are counted
 // in whole numbers: on the axis of the exit the next voxel is known, on the others it lies within the cube, whatever
 // rounding says.
@@ -155,8 +158,7 @@ MarchHit march_cubes(texture3D distance_field, vec3 origin, vec3 direction, floa
     if (!within(next, size)) break;
     voxel = next;
   }
-  if (!found) return MarchHit(false, ivec3(-1), min(end, t), ivec3(0));
-  return MarchHit(true, voxel, t, axis >= 0 ? face_towards(axis, direction) : entry_face(voxel, origin, direction));
+  return march_end(found, voxel, t, axis, origin, direction, end);
 }
 
 MarchHit march_ray(texture3D distance_field, vec3 origin, vec3 direction, float end) {

@@ -42,9 +42,7 @@ MarchHit march_boxes(ivec3 size, vec3 origin, vec3 direction, float end) {
     if (any(lessThan(next, vec3(0.0))) || any(greaterThanEqual(next, vec3(size)))) break;
     voxel = next;
   }
-  if (!found) return MarchHit(false, ivec3(-1), min(end, t), ivec3(0));
-  ivec3 hit = ivec3(voxel);
-  return MarchHit(true, hit, t, axis >= 0 ? face_towards(axis, direction) : entry_face(hit, origin, direction));
+  return march_end(found, ivec3(voxel), t, axis, origin, direction, end);
 }
 
 // First occupied voxel on a ray, by the boxes where there are some.
