@@ -10,15 +10,6 @@
 namespace lightloom::reference {
 namespace {
 
-struct DeviceRelease {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct SceneRelease {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, DeviceRelease>;
-using Scene = std::unique_ptr<RTCSceneTy, SceneRelease>;
-
 void check(RTCDevice device) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE) return;
@@ -93,6 +84,15 @@ void set_ray(RTCRay& target, const Ray& ray, float distance) {
 }  // namespace
 
 struct TriangleTree::State {
+  struct DeviceRelease {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  };
+  struct SceneRelease {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  };
+  using Device = std::unique_ptr<RTCDeviceTy, DeviceRelease>;
+  using Scene = std::unique_ptr<RTCSceneTy, SceneRelease>;
+
   Device device;
   Scene scene;
   std::vector<uint32_t> opaque, masked;  ///< triangles by Embree's primitive; geometry 0 is the opaque ones

@@ -9,7 +9,7 @@
 #include "framework/base/json.hpp"
 #include "passes/registry.hpp"
 #include "tests/graph/fixed_registry.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
 
 namespace lightloom {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "framework/graph/link.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "framework/graph/plan.hpp"
 #include "tests/graph/real_passes.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom {
 namespace {

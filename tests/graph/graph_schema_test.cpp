@@ -10,7 +10,7 @@
 
 #include "framework/graph/graph_spec.hpp"
 #include "tests/graph/real_passes.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 #include "tests/support/schema_check.hpp"
 
 // The published schema of graph files against the reader, which decides by code of its own. The validator is Python's.

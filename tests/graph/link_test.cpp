@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom {
 namespace {

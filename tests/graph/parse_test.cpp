@@ -2,7 +2,7 @@
 
 #include "framework/base/file.hpp"
 #include "framework/graph/graph_spec.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
 
 namespace lightloom {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "tests/graph/random_graph.hpp"
+#include "tests/support/random_graph.hpp"
 #include "tests/graph/real_passes.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 #include "tests/support/schema_check.hpp"
 
 // Drawings are given to Graphviz itself.

@@ -6,8 +6,8 @@
 #include <map>
 #include <random>
 
-#include "tests/graph/random_graph.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/random_graph.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "framework/base/text.hpp"
 #include "framework/graph/verify.hpp"
-#include "tests/graph/random_graph.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/random_graph.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom {
 namespace {

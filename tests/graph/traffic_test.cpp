@@ -6,7 +6,7 @@
 
 #include "framework/base/file.hpp"
 #include "tests/graph/real_passes.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
 
 namespace lightloom {

@@ -9,9 +9,9 @@
 #include "framework/base/file.hpp"
 #include "framework/base/text.hpp"
 #include "tests/graph/memory_needs.hpp"
-#include "tests/graph/random_graph.hpp"
+#include "tests/support/random_graph.hpp"
 #include "tests/graph/real_passes.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
 
 namespace lightloom {

@@ -2,20 +2,20 @@
 """clang_tidy.py BUILD_FOLDER SOURCE...: clang-tidy over the sources, on all cores; prints what it finds and fails then.
 
 Most of its time goes into system headers, so that sources compiled with the same flags are looked at some at a time, as
-one translation unit that includes them. Sources with helpers of the same name are kept apart; where others cannot stand
-in one unit either, the unit is halved."""
+one translation unit that includes them, as the build does (framework/build/units.py); where they cannot stand in one unit,
+it is halved."""
 
 import concurrent.futures
 import json
 import os
-import re
 import shlex
 import subprocess
 import sys
 import tempfile
 
-SOURCES_A_UNIT = 12
 HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path.insert(0, os.path.join(HERE, "../../framework/build"))
+from units import units_of  # pylint: disable=wrong-import-position
 
 
 def flags_of(entry):
@@ -33,25 +33,12 @@ def flags_of(entry):
     return entry["directory"], tuple(kept)
 
 
-# What a line that begins at the margin declares: the last name before its parameters, value, bases or body.
-DECLARED = re.compile(r"^(?=\w)(?!namespace|using|return)[\w:<>,&*\[\] ]*?(?<![\w:])(\w+)(?:\(| = |\{| \{| : |;)", re.MULTILINE)
-
-
-def units_of(sources):
-    """The sources in lists of at most SOURCES_A_UNIT, none of which declares a name twice."""
-    units = []
-    for source in sources:
-        with open(source, encoding="utf-8") as text:
-            names = set(DECLARED.findall(text.read()))
-        for unit in units:
-            if len(unit["sources"]) < SOURCES_A_UNIT and not names & unit["names"]:
-                break
-        else:
-            unit = {"sources": [], "names": set()}
-            units.append(unit)
-        unit["sources"].append(source)
-        unit["names"] |= names
-    return [unit["sources"] for unit in units]
+def compiled_by(entry):
+    """The sources that a command compiles: its own, or those that its unit includes."""
+    if "/Unity/" not in entry["file"]:
+        return [os.path.realpath(entry["file"])]
+    with open(entry["file"], encoding="utf-8") as unit:
+        return [os.path.realpath(line.split('"')[1]) for line in unit if line.startswith("#include")]
 
 
 def tidy(folder, flags, sources, extra):
@@ -83,14 +70,14 @@ def findings(folder, flags, sources):
 def main():
     build, *sources = sys.argv[1:]
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as commands:
-        entries = {os.path.realpath(entry["file"]): entry for entry in json.load(commands)}
+        entries = {source: entry for entry in json.load(commands) for source in compiled_by(entry)}
     missing = [source for source in sources if os.path.realpath(source) not in entries]
     if missing:
         sys.exit(f"{missing[0]} is compiled by nobody; {len(missing)} such in all")
     alike = {}
     for source in sources:
         alike.setdefault(flags_of(entries[os.path.realpath(source)]), []).append(source)
-    units = [(flags, unit) for flags, members in alike.items() for unit in units_of(members)]
+    units = [(flags, unit) for flags, members in alike.items() for unit in units_of(members, most=12)]
     # The longest first, so that no core waits for one at the end.
     units.sort(key=lambda unit: -len(unit[1]))
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -72,7 +72,7 @@ bool beyond_schema(const std::string& sentence) {
 }
 
 TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
-  const test::SchemaFolder folder;
+  const lightloom::test::SchemaFolder folder;
   std::vector<fs::path> files;
   for (const std::string& text : variations()) files.push_back(folder.write(std::to_string(files.size()), text));
   const std::vector<std::string> answers = folder.check(folder.write("schema", scene_schema().dump()), files);
@@ -103,7 +103,7 @@ TEST(SceneSchema, EnvironmentIsOneOfTwo) {
       {R"({"radiance": [1, 1, 1], "image": "sky.hdr"})", "no"},
       {"{}", "no"},
   };
-  const test::SchemaFolder folder;
+  const lightloom::test::SchemaFolder folder;
   std::vector<fs::path> files;
   for (const auto& [environment, expected] : trials)
     files.push_back(folder.write(std::to_string(files.size()),
@@ -117,7 +117,7 @@ TEST(SceneSchema, AcceptsTheScenesThatShip) {
   for (const auto& entry : fs::directory_iterator(source_dir() / "samples/scenes"))
     if (entry.path().string().ends_with(".scene.json")) files.push_back(entry.path());
   ASSERT_GE(files.size(), 1U);
-  const test::SchemaFolder folder;
+  const lightloom::test::SchemaFolder folder;
   for (const std::string& answer : folder.check(folder.write("schema", scene_schema().dump()), files))
     EXPECT_EQ(answer, "yes");
 }
@@ -129,7 +129,7 @@ TEST(SceneSchema, AcceptsTheSharedScenes) {
   for (const auto& entry : fs::recursive_directory_iterator(shared))
     if (entry.path().string().ends_with(".scene.json")) files.push_back(entry.path());
   ASSERT_GE(files.size(), 1U);
-  const test::SchemaFolder folder;
+  const lightloom::test::SchemaFolder folder;
   for (const std::string& answer : folder.check(folder.write("schema", scene_schema().dump()), files))
     EXPECT_EQ(answer, "yes");
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "passes/registry.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 #include "tests/support/device_fixture.hpp"
 
 namespace lightloom::study {

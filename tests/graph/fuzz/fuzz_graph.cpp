@@ -21,8 +21,8 @@
 #include "passes/registry.hpp"
 #include "tests/graph/fuzz/mutator.hpp"
 #include "tests/graph/memory_needs.hpp"
-#include "tests/graph/random_graph.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/random_graph.hpp"
+#include "tests/support/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
 
 namespace lightloom::fuzz {

@@ -1,11 +1,11 @@
-#include "tests/graph/big_graphs.hpp"
+#include "tests/support/big_graphs.hpp"
 
 #include <algorithm>
 #include <random>
 #include <vector>
 
 #include "framework/base/text.hpp"
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom::toy {
 namespace {

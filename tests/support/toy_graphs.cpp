@@ -1,4 +1,4 @@
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "tests/graph/random_graph.hpp"
+#include "tests/support/random_graph.hpp"
 
 #include <random>
 #include <vector>
 
-#include "tests/graph/toy_graphs.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom::toy {
 namespace {
