@@ -9,8 +9,8 @@
 #include "framework/base/json.hpp"
 #include "passes/registry.hpp"
 #include "tests/graph/fixed_registry.hpp"
-#include "tests/support/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "framework/graph/graph_spec.hpp"
 #include "tests/graph/real_passes.hpp"
-#include "tests/support/toy_graphs.hpp"
 #include "tests/support/schema_check.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 // The published schema of graph files against the reader, which decides by code of its own. The validator is Python's.
 namespace lightloom {

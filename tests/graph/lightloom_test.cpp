@@ -5,8 +5,8 @@
 #include "framework/base/file.hpp"
 #include "framework/graph/verify.hpp"
 #include "tests/graph/real_passes.hpp"
-#include "tests/support/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 // graphs/lightloom.json, linked against scenes that have or lack what its nodes ask for.
 namespace lightloom {

@@ -2,8 +2,8 @@
 
 #include "framework/base/file.hpp"
 #include "framework/graph/graph_spec.hpp"
-#include "tests/support/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom {
 namespace {

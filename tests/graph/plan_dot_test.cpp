@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "tests/support/random_graph.hpp"
 #include "tests/graph/real_passes.hpp"
-#include "tests/support/toy_graphs.hpp"
+#include "tests/support/random_graph.hpp"
 #include "tests/support/schema_check.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 // Drawings are given to Graphviz itself.
 namespace lightloom {

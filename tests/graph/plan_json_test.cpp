@@ -10,10 +10,10 @@
 #include "framework/graph/critical_path.hpp"
 #include "framework/graph/lifetime.hpp"
 #include "tests/graph/memory_needs.hpp"
-#include "tests/support/random_graph.hpp"
 #include "tests/graph/real_passes.hpp"
-#include "tests/support/toy_graphs.hpp"
+#include "tests/support/random_graph.hpp"
 #include "tests/support/schema_check.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 // Plans as data: against their schema, and against what the plan itself says.
 namespace lightloom {

@@ -6,8 +6,8 @@
 #include "framework/base/file.hpp"
 #include "framework/graph/verify.hpp"
 #include "tests/graph/real_passes.hpp"
-#include "tests/support/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom {
 namespace {

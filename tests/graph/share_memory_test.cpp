@@ -8,10 +8,10 @@
 #include "framework/base/file.hpp"
 #include "framework/graph/verify.hpp"
 #include "tests/graph/memory_needs.hpp"
-#include "tests/support/random_graph.hpp"
 #include "tests/graph/real_passes.hpp"
-#include "tests/support/toy_graphs.hpp"
+#include "tests/support/random_graph.hpp"
 #include "tests/support/source_dir.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom {
 namespace {

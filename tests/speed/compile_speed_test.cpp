@@ -16,8 +16,8 @@
 #include "framework/graph/share_memory.hpp"
 #include "framework/graph/synchronise.hpp"
 #include "framework/graph/verify.hpp"
-#include "tests/support/big_graphs.hpp"
 #include "tests/graph/memory_needs.hpp"
+#include "tests/support/big_graphs.hpp"
 #include "tests/support/toy_graphs.hpp"
 
 namespace lightloom {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "passes/registry.hpp"
-#include "tests/support/toy_graphs.hpp"
 #include "tests/support/device_fixture.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom::study {
 namespace {

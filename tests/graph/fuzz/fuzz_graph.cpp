@@ -22,8 +22,8 @@
 #include "tests/graph/fuzz/mutator.hpp"
 #include "tests/graph/memory_needs.hpp"
 #include "tests/support/random_graph.hpp"
-#include "tests/support/toy_graphs.hpp"
 #include "tests/support/source_dir.hpp"
+#include "tests/support/toy_graphs.hpp"
 
 namespace lightloom::fuzz {
 namespace {
