@@ -6,6 +6,7 @@
 #include "passes/distance_transform.hpp"
 #include "passes/emissive_faces.hpp"
 #include "passes/empty_boxes.hpp"
+#include "passes/filter_guide.hpp"
 #include "passes/gather.hpp"
 #include "passes/modulate.hpp"
 #include "passes/ray_query_path_trace.hpp"
@@ -35,6 +36,7 @@ void register_builtin_passes(PassRegistry& registry) {
   registry.add(make_ray_query_path_trace());
   registry.add(make_temporal_accumulate());
   registry.add(make_accumulate());
+  registry.add(make_filter_guide());
   registry.add(make_denoise_radial());
   registry.add(make_box_blur());
   registry.add(make_upsample());

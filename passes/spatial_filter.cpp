@@ -58,9 +58,13 @@ PassType make_spatial_filter(const std::string& name, std::string doc, std::vect
           "variance", Format::r32_sfloat,
           "estimated variance of the luminance of `radiance`; unconnected: the filter has its full length everywhere"));
   variance.optional = true;
+  const Port guide = optional(same_size_as(
+      "radiance", image_input("guide", Format::rgba32_uint,
+                              "of `filter_guide`: neighbours are judged by it instead of by `surface` and `variance`, "
+                              "which takes a quarter of the loads")));
   type.ports = {
       image_input("radiance", Format::rgba32_sfloat, "what to filter; a: frames behind it, 0 where there is nothing"),
-      same_size_as("radiance", surface_input("surface", "G-buffer of the same pixels")), variance, radiance};
+      same_size_as("radiance", surface_input("surface", "G-buffer of the same pixels")), variance, guide, radiance};
   type.params = std::move(own_params);
   for (Param& param : shape_params()) type.params.push_back(std::move(param));
   for (Param& param : guide_params()) type.params.push_back(std::move(param));

@@ -26,15 +26,27 @@ layout(push_constant) uniform Params {
 };
 
 // Within the ellipse around the centre on its surface? Multiplied out, for half axes may be 0.
-bool within_ellipse(Centre centre, ivec2 pixel) {
-  vec3 offset = texelFetch(surface_position, pixel, 0).xyz - centre.position.xyz;
+bool within_ellipse(Centre centre, vec3 offset) {
   vec2 place = vec2(dot(offset, centre.tangent), dot(offset, centre.bitangent)) * centre.reach.yx;
   float limit = centre.reach.x * centre.reach.y;
   return dot(place, place) <= limit * limit;
 }
 
 void add_within_cutoff(Centre centre, ivec2 pixel, inout vec4 sum) {
-  if (cutoff == 0u || within_ellipse(centre, pixel)) add_neighbour(centre, pixel, sum);
+  Neighbour neighbour = load_neighbour(centre, pixel);
+  bool within = cutoff == 0u || within_ellipse(centre, offset_from(centre, neighbour.guide));
+  neighbour.counts = neighbour.counts && within;
+  add_neighbour(neighbour, sum);
+}
+
+vec4 mean_along(Centre centre, ivec2 direction) {
+  int taps = min(int(radius), max(int(round(float(radius) * centre.kept)), 1));
+  vec4 sum = vec4(centre.radiance.rgb, 1.0);
+  for (int k = 1; k <= taps; ++k) {
+    add_within_cutoff(centre, centre.pixel + direction * k, sum);
+    add_within_cutoff(centre, centre.pixel - direction * k, sum);
+  }
+  return vec4(sum.rgb / sum.a, centre.radiance.a);
 }
 
 void main() {
@@ -43,16 +55,7 @@ void main() {
   FilterShape shape = FilterShape(floor_fraction, distance_fraction, normal_threshold, variance_guide,
                                   full_width_error, difference_limit);
   Centre centre;
-  if (!load_centre(pixel, shape, centre)) {
-    imageStore(out_radiance, pixel, storable(centre.radiance, out_radiance_largest));
-    return;
-  }
-  ivec2 direction = axis == 0u ? ivec2(1, 0) : ivec2(0, 1);
-  int taps = min(int(radius), max(int(round(float(radius) * centre.kept)), 1));
-  vec4 sum = vec4(centre.radiance.rgb, 1.0);
-  for (int k = 1; k <= taps; ++k) {
-    add_within_cutoff(centre, pixel + direction * k, sum);
-    add_within_cutoff(centre, pixel - direction * k, sum);
-  }
-  imageStore(out_radiance, pixel, storable(vec4(sum.rgb / sum.a, centre.radiance.a), out_radiance_largest));
+  bool filtered = load_centre(pixel, shape, centre);
+  vec4 mean = mean_along(centre, axis == 0u ? ivec2(1, 0) : ivec2(0, 1));
+  imageStore(out_radiance, pixel, storable(filtered ? mean : centre.radiance, out_radiance_largest));
 }

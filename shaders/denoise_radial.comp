@@ -23,23 +23,40 @@ layout(push_constant) uniform Params {
   float difference_limit;
 };
 
-// Marches from the centre along a direction of the world as it appears on the screen, one tap for each pixel that is
-// crossed. If there are more than `taps`, they spread over the whole length. Where the full length crosses a pixel, so
-// does what a guide leaves of it.
-void march_side(Centre centre, vec3 direction, float reach_along, inout vec4 sum) {
+// What is marched of one side of the centre: so many taps, a stride apart [pixels].
+struct Side {
+  vec2 stride;
+  float count;
+};
+
+// Along a direction of the world as it appears on the screen, one tap for each pixel that is crossed. If there are more
+// than `taps`, they spread over the whole length. Where the full length crosses a pixel, so does what a guide leaves of it.
+Side make_side(Centre centre, vec4 origin, vec4 slope, float reach_along) {
   vec2 size = vec2(textureSize(radiance, 0));
-  vec4 origin = frame.view_projection[0] * vec4(centre.position.xyz, 1.0);
-  vec4 slope = frame.view_projection[0] * vec4(direction, 0.0);
   // Towards the viewer, stop half way: behind the eye nothing can be projected.
   float reach = slope.w < 0.0 ? min(reach_along, -0.5 * origin.w / slope.w) : reach_along;
   vec2 path = clip_to_pixel(origin + slope * reach, size) - clip_to_pixel(origin, size);
   float crossed = max(abs(path.x), abs(path.y));
-  if (!(crossed >= 1.0)) return;
   float kept = max(crossed * centre.kept, 1.0);
   float count = min(floor(kept), float(taps));
   vec2 stride = path / crossed * (count < floor(kept) ? kept / count : 1.0);
+  return Side(stride, crossed >= 1.0 ? count : 0.0);
+}
+
+// Mean of the taps on both sides and the centre. One loop for both, for pixels computed together wait for the longest.
+vec4 march(Centre centre) {
+  vec4 origin = frame.view_projection[0] * vec4(centre.position.xyz, 1.0);
+  vec4 slope = frame.view_projection[0] * vec4(axis == 0u ? centre.tangent : centre.bitangent, 0.0);
+  float reach_along = axis == 0u ? centre.reach.x : centre.reach.y;
+  Side ahead = make_side(centre, origin, slope, reach_along);
+  Side behind = make_side(centre, origin, -slope, reach_along);
   vec2 start = vec2(centre.pixel) + 0.5;
-  for (float k = 1.0; k <= count; ++k) add_neighbour(centre, ivec2(floor(start + stride * k)), sum);
+  vec4 sum = vec4(centre.radiance.rgb, 1.0);
+  for (float k = 1.0; k <= ahead.count + behind.count; ++k) {
+    vec2 step = k <= ahead.count ? ahead.stride * k : behind.stride * (k - ahead.count);
+    add_neighbour(load_neighbour(centre, ivec2(floor(start + step))), sum);
+  }
+  return vec4(sum.rgb / sum.a, centre.radiance.a);
 }
 
 void main() {
@@ -48,14 +65,7 @@ void main() {
   FilterShape shape = FilterShape(floor_fraction, distance_fraction, normal_threshold, variance_guide,
                                   full_width_error, difference_limit);
   Centre centre;
-  if (!load_centre(pixel, shape, centre)) {
-    imageStore(out_radiance, pixel, storable(centre.radiance, out_radiance_largest));
-    return;
-  }
-  vec3 direction = axis == 0u ? centre.tangent : centre.bitangent;
-  float reach_along = axis == 0u ? centre.reach.x : centre.reach.y;
-  vec4 sum = vec4(centre.radiance.rgb, 1.0);
-  march_side(centre, direction, reach_along, sum);
-  march_side(centre, -direction, reach_along, sum);
-  imageStore(out_radiance, pixel, storable(vec4(sum.rgb / sum.a, centre.radiance.a), out_radiance_largest));
+  bool filtered = load_centre(pixel, shape, centre);
+  vec4 mean = march(centre);
+  imageStore(out_radiance, pixel, storable(filtered ? mean : centre.radiance, out_radiance_largest));
 }

@@ -2,25 +2,24 @@
 #ifndef LIGHTLOOM_LIB_NEIGHBOUR
 #define LIGHTLOOM_LIB_NEIGHBOUR
 
-#include "lib/color.glsl"
 #include "lib/filter.glsl"
+#include "lib/filter_guide.glsl"
 #include "lib/modulation.glsl"
-#include "lib/sampling.glsl"
+#include "lib/relative_error.glsl"
 #include "lib/scene.glsl"
 
 layout(constant_id = 0) const uint lobe = 0u;     // kLobeBoth, ...
 layout(constant_id = 1) const uint kernel = 0u;   // 0: anisotropic, 1: isotropic
 layout(constant_id = 2) const uint roughness = 0u;   // 0: alpha, 1: perceptual
 layout(constant_id = 3) const bool variance_bound = false;
+layout(constant_id = 4) const bool guide_bound = false;
 
-uniform texture2D radiance;
 uniform texture2D surface_position;
 uniform texture2D surface_normal;
 uniform texture2D surface_tangent;
 uniform texture2D surface_albedo;
 uniform texture2D surface_material;
-uniform utexture2D surface_id;
-uniform texture2D variance;
+uniform utexture2D guide;
 
 // Push constants by the names of the params in passes/spatial_filter.cpp.
 struct FilterShape {
@@ -40,12 +39,20 @@ struct Centre {
   vec3 normal;
   vec3 tangent;
   vec3 bitangent;
-  uint object;
+  Guide guide;      // of the pixel itself
   vec2 reach;       // half lengths along tangent and bitangent [m]
   float kept;       // part of its length that a filter keeps, 0 to 1
-  float variance;   // of the luminance
   FilterShape shape;
 };
+
+const bool knows_variance = variance_bound || guide_bound;
+
+// What tells whether a pixel belongs to the centre. Unpacked, positions are not from the viewer; only differences count.
+Guide load_guide(ivec2 pixel) {
+  if (guide_bound) return unpack_guide(texelFetch(guide, pixel, 0));
+  return Guide(texelFetch(surface_id, pixel, 0).x, texelFetch(surface_normal, pixel, 0).xyz,
+               texelFetch(surface_position, pixel, 0).xyz, variance_bound ? texelFetch(variance, pixel, 0).x : 0.0, 0.0);
+}
 
 float scene_diagonal() { return length(frame.scene_max.xyz - frame.scene_min.xyz); }
 
@@ -60,42 +67,32 @@ vec2 kernel_roughness(Centre centre) {
   return kernel == 0u ? measure : vec2(sqrt(measure.x * measure.y));
 }
 
-// Part of the length to keep, from the relative standard error of a pixel's radiance. Mean and variance are themselves
-// estimates of few samples, and both are small where by chance no light was found; so they are taken over the 3x3 pixels
-// around, as far as they show the same object.
+// Part of the length to keep.
 float kept_length(Centre centre, FilterShape shape) {
-  if (!variance_bound || shape.variance_guide <= 0.0) return 1.0;
-  ivec2 last = textureSize(radiance, 0) - 1;
-  vec3 sum = vec3(0.0);   // luminance, its variance, pixels
-  for (int k = 0; k < 9; ++k) {
-    ivec2 pixel = clamp(centre.pixel + ivec2(k % 3, k / 3) - 1, ivec2(0), last);
-    if (texelFetch(surface_id, pixel, 0).x != centre.object) continue;
-    vec4 value = texelFetch(radiance, pixel, 0);
-    vec3 moments = vec3(luminance(value.rgb), texelFetch(variance, pixel, 0).x, 1.0);
-    if (value.a > 0.0 && is_finite(moments)) sum += max(moments, vec3(0.0));
-  }
-  // Nothing found, nothing known.
-  if (!(sum.x > 0.0)) return 1.0;
-  float error = sqrt(sum.y * sum.z) / sum.x;
+  if (!knows_variance || shape.variance_guide <= 0.0) return 1.0;
+  float error = guide_bound ? centre.guide.error : relative_error(centre.pixel, centre.guide.object);
   return mix(1.0, guided_length(error, shape.full_width_error), shape.variance_guide);
 }
 
-// False where there is nothing to filter: background, unlit.
+// False where there is nothing to filter: background, unlit. The centre is then one of no reach.
 bool load_centre(ivec2 pixel, FilterShape shape, out Centre centre) {
   centre.pixel = pixel;
   centre.radiance = texelFetch(radiance, pixel, 0);
   centre.position = texelFetch(surface_position, pixel, 0);
-  if (!(centre.position.w > 0.0 && centre.radiance.a > 0.0)) return false;
   centre.normal = texelFetch(surface_normal, pixel, 0).xyz;
   centre.tangent = texelFetch(surface_tangent, pixel, 0).xyz;
   centre.bitangent = cross(centre.normal, centre.tangent);
-  centre.object = texelFetch(surface_id, pixel, 0).x;
+  centre.guide = load_guide(pixel);
   float length = filter_reach(shape.floor_fraction * scene_diagonal(), shape.distance_fraction, centre.position.w);
   centre.reach = length * kernel_roughness(centre);
   centre.kept = kept_length(centre, shape);
-  centre.variance = variance_bound ? texelFetch(variance, pixel, 0).x : 0.0;
   centre.shape = shape;
-  return true;
+  bool filtered = centre.position.w > 0.0 && centre.radiance.a > 0.0;
+  if (!filtered) {
+    centre.reach = vec2(0.0);
+    centre.kept = 0.0;
+  }
+  return filtered;
 }
 
 // Where fewer than so many frames stand behind a pixel, the variance is estimated from the 25 pixels around it
@@ -105,26 +102,43 @@ const float kNeighbourhoodLimit = 5.0;
 
 // May chance explain the difference between the two? Both variances count, so that what is improbably bright is spread
 // as well as blurred: pixels that share a test share their light, and the mean stays.
-bool may_be_equal(Centre centre, ivec2 pixel, vec4 value) {
+bool may_be_equal(Centre centre, float variance, vec4 value) {
   float limit = centre.shape.difference_limit;
-  if (!variance_bound || limit <= 0.0) return true;
-  if (min(value.a, centre.radiance.a) < kHistoryOfOwn) limit = max(limit, kNeighbourhoodLimit);
+  bool tested = knows_variance && limit > 0.0;
+  limit = min(value.a, centre.radiance.a) < kHistoryOfOwn ? max(limit, kNeighbourhoodLimit) : limit;
   float difference = luminance(value.rgb) - luminance(centre.radiance.rgb);
-  return !(difference * difference > limit * limit * (centre.variance + texelFetch(variance, pixel, 0).x));
+  return !(tested && difference * difference > limit * limit * (centre.guide.variance + variance));
 }
 
-// Adds a neighbour if it shows the same object, faces alike, lies within the radial cut-off and, as far as the variance
-// tells, may have the same light.
-void add_neighbour(Centre centre, ivec2 pixel, inout vec4 sum) {
-  if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(radiance, 0)))) return;
-  if (texelFetch(surface_id, pixel, 0).x != centre.object) return;
-  vec3 offset = texelFetch(surface_position, pixel, 0).xyz - centre.position.xyz;
+vec3 offset_from(Centre centre, Guide other) { return other.position - centre.guide.position; }
+
+// Does a neighbour show the same object, face alike, lie within the radial cut-off and, as far as the variance tells,
+// may it have the same light?
+bool belongs(Centre centre, Guide other, vec4 value) {
+  vec3 offset = offset_from(centre, other);
   float cutoff = max(centre.reach.x, centre.reach.y);
-  if (!(dot(offset, offset) <= cutoff * cutoff)) return;
-  if (!(dot(texelFetch(surface_normal, pixel, 0).xyz, centre.normal) >= centre.shape.normal_threshold)) return;
-  vec4 value = texelFetch(radiance, pixel, 0);
-  if (value.a <= 0.0 || !is_finite(value.rgb) || !may_be_equal(centre, pixel, value)) return;
-  sum += vec4(value.rgb, 1.0);
+  bool alike = all(bvec3(other.object == centre.guide.object, dot(offset, offset) <= cutoff * cutoff,
+                         dot(other.normal, centre.normal) >= centre.shape.normal_threshold));
+  return all(bvec4(alike, value.a > 0.0, is_finite(value.rgb), may_be_equal(centre, other.variance, value)));
+}
+
+// A pixel that may be added. What lies outside of the image is loaded from its rim and does not count. There are no
+// branches, for a processor that computes several pixels at once goes all ways anyway.
+struct Neighbour {
+  Guide guide;
+  vec4 radiance;
+  bool counts;
+};
+
+Neighbour load_neighbour(Centre centre, ivec2 pixel) {
+  ivec2 inside = clamp(pixel, ivec2(0), textureSize(radiance, 0) - 1);
+  Guide other = load_guide(inside);
+  vec4 value = texelFetch(radiance, inside, 0);
+  return Neighbour(other, value, inside == pixel ? belongs(centre, other, value) : false);
+}
+
+void add_neighbour(Neighbour neighbour, inout vec4 sum) {
+  sum += neighbour.counts ? vec4(neighbour.radiance.rgb, 1.0) : vec4(0.0);
 }
 
 #endif
