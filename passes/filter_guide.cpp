@@ -9,7 +9,8 @@ PassType make_filter_guide() {
   type.name = "filter_guide";
   type.doc =
       "Object, normal, position, variance and relative error of each pixel in one texel of 128 bits, for the spatial "
-      "filters, which look at up to forty neighbours a pixel: one load each instead of four. Positions are kept to 2^-15 "
+      "filters, which look at up to forty neighbours a pixel: one load each instead of four. Positions are kept to "
+      "2^-15 "
       "of the distance from the viewer, normals to 0.001, variances to 1/256, errors to 1/40. The error is that of the "
       "radiance given here, once for all the filters; without a guide each takes that of its own input.";
   type.ports = {

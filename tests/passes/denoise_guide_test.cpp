@@ -6,11 +6,11 @@
 #include "tests/passes/filter_support.hpp"
 #include "tests/support/device_fixture.hpp"
 
-// The length of the filters where the variance of what they filter is known.
+// The length of the filters where the variance of what they filter is known, by images or packed into one (the param).
 namespace lightloom::test {
 namespace {
 
-class DenoiseGuide : public DeviceTest {
+class DenoiseGuide : public DeviceTest, public ::testing::WithParamInterface<bool> {
  protected:
   void SetUp() override { DeviceTest::SetUp(); }
 
@@ -30,7 +30,8 @@ class DenoiseGuide : public DeviceTest {
     return run_filters(scene_, {.pattern = "bump",
                                 .stages = {stage},
                                 .variance_pattern = "constant",
-                                .variance_scale = 4 * error * error})
+                                .variance_scale = 4 * error * error,
+                                .packed = GetParam()})
         .at("radiance");
   }
 
@@ -47,7 +48,7 @@ class DenoiseGuide : public DeviceTest {
   }
 };
 
-TEST_F(DenoiseGuide, LengthFollowsTheRelativeStandardError) {
+TEST_P(DenoiseGuide, LengthFollowsTheRelativeStandardError) {
   for (const double error : {0.001, 0.02, 0.05, 0.08, 0.125, 0.18, 0.25, 2.0}) {
     const double x = std::min(error / 0.25, 1.0);
     const int expected = std::max(1, static_cast<int>(kReach * x * (2 - x)));
@@ -58,7 +59,7 @@ TEST_F(DenoiseGuide, LengthFollowsTheRelativeStandardError) {
   EXPECT_EQ(reach(bump(radial(R"(, "full_width_error": 0.1)"), 0.05)), static_cast<int>(kReach * 0.75));
 }
 
-TEST_F(DenoiseGuide, BoxBlurShrinksToOnePixelAtMost) {
+TEST_P(DenoiseGuide, BoxBlurShrinksToOnePixelAtMost) {
   const FilterStage box = {"box_blur", R"("axis": "x", "radius": 8, "difference_limit": 0, )" + reach_};
   EXPECT_EQ(reach(bump(box, 0.0)), 1);
   EXPECT_EQ(reach(bump(box, 0.125)), 6);  // 8 * 0.75
@@ -66,12 +67,14 @@ TEST_F(DenoiseGuide, BoxBlurShrinksToOnePixelAtMost) {
   EXPECT_EQ(reach(bump({"box_blur", R"("axis": "x", "radius": 0, "difference_limit": 0, )" + reach_}, 1.0)), 0);
 }
 
-TEST_F(DenoiseGuide, WithoutKnowledgeTheFilterIsTheUnguidedOne) {
+TEST_P(DenoiseGuide, WithoutKnowledgeTheFilterIsTheUnguidedOne) {
   const image::HostImage unguided = run_filters(scene_, {.pattern = "noise", .stages = {radial()}}).at("radiance");
   auto guided = [&](const std::string& more, const std::string& variance, double scale) {
-    return run_filters(
-               scene_,
-               {.pattern = "noise", .stages = {radial(more)}, .variance_pattern = variance, .variance_scale = scale})
+    return run_filters(scene_, {.pattern = "noise",
+                                .stages = {radial(more)},
+                                .variance_pattern = variance,
+                                .variance_scale = scale,
+                                .packed = GetParam()})
         .at("radiance");
   };
   expect_same(unguided, guided("", "constant", 4e4));
@@ -79,12 +82,13 @@ TEST_F(DenoiseGuide, WithoutKnowledgeTheFilterIsTheUnguidedOne) {
   EXPECT_NE(unguided.texels, guided("", "constant", 0).texels);
 }
 
-TEST_F(DenoiseGuide, ConstantImagesStayAndImpulsesKeepTheirSum) {
+TEST_P(DenoiseGuide, ConstantImagesStayAndImpulsesKeepTheirSum) {
   for (const double error : {0.0, 0.07, 1.0}) {
     const Images flat = run_filters(scene_, {.pattern = "constant",
                                              .stages = {radial(), {"box_blur", R"("axis": "y", )" + reach_}},
                                              .variance_pattern = "noise",
-                                             .variance_scale = error});
+                                             .variance_scale = error,
+                                             .packed = GetParam()});
     const image::HostImage response = bump(radial(), error);
     double sum = 0;
     for (uint32_t y = 0; y < 65; ++y)
@@ -96,7 +100,7 @@ TEST_F(DenoiseGuide, ConstantImagesStayAndImpulsesKeepTheirSum) {
   }
 }
 
-TEST_F(DenoiseGuide, AStepStaysWhereChanceCannotExplainIt) {
+TEST_P(DenoiseGuide, AStepStaysWhereChanceCannotExplainIt) {
   // From 1 to 2: with the variance v of each, that is 1 / sqrt(2 v) standard errors.
   auto step = [&](double standard_errors, const std::string& limit) {
     const FilterStage stage = {"denoise_radial",
@@ -105,7 +109,8 @@ TEST_F(DenoiseGuide, AStepStaysWhereChanceCannotExplainIt) {
                        {.pattern = "step",
                         .stages = {stage, {"box_blur", R"("axis": "x", "variance_guide": 0, )" + reach_ + limit}},
                         .variance_pattern = "constant",
-                        .variance_scale = 4 * 0.5 / (standard_errors * standard_errors)});
+                        .variance_scale = 4 * 0.5 / (standard_errors * standard_errors),
+                        .packed = GetParam()});
   };
   const Images sharp = step(3.1, "");
   const Images blurred = step(2.9, "");
@@ -117,7 +122,7 @@ TEST_F(DenoiseGuide, AStepStaysWhereChanceCannotExplainIt) {
   expect_same(step(2.1, R"(, "difference_limit": 2)").at("radiance"), sharp.at("pattern"));
 }
 
-TEST_F(DenoiseGuide, WithLittleHistoryTheLimitIsWide) {
+TEST_P(DenoiseGuide, WithLittleHistoryTheLimitIsWide) {
   // The bump is 1/128 high and its alpha is 1: kept apart beyond 5 standard errors of the difference, not beyond 3.
   const FilterStage stage = {"denoise_radial", R"("axis": "tangent", "taps": 64, "variance_guide": 0, )" + reach_};
   const double height = 1.0 / 128;
@@ -125,25 +130,38 @@ TEST_F(DenoiseGuide, WithLittleHistoryTheLimitIsWide) {
   EXPECT_EQ(reach(bump(stage, height / std::sqrt(2.0) / 5.5)), 0);
 }
 
-TEST_F(DenoiseGuide, WhatIsImprobablyBrightKeepsItsSum) {
+TEST_P(DenoiseGuide, WhatIsImprobablyBrightKeepsItsSum) {
   // One pixel in which chance found much light, and so much variance: spread, neither lost nor left alone.
   const Images images = run_filters(
       scene_, {.pattern = "impulse",
                .stages = {{"denoise_radial", R"("axis": "tangent", "taps": 64, "variance_guide": 0, )" + reach_}},
-               .variance_pattern = "impulse"});
+               .variance_pattern = "impulse",
+               .packed = GetParam()});
   double sum = 0;
   for (uint32_t x = 0; x < 65; ++x) sum += images.at("radiance").at(x, 32, 0, 0);
   EXPECT_NEAR(sum, 1, 1e-5);
   EXPECT_NEAR(images.at("radiance").at(32, 32, 0, 0), 1.0 / 25, 1e-6);
 }
 
-TEST_F(DenoiseGuide, ASpoiltVarianceCountsAsNone) {
+TEST_P(DenoiseGuide, ASpoiltVarianceCountsAsNone) {
   // One NaN in the variance: its neighbours judge by the other eight pixels.
-  const Images images = run_filters(
-      scene_, {.pattern = "noise", .stages = {radial()}, .variance_pattern = "spoilt", .variance_scale = 1});
+  const Images images = run_filters(scene_, {.pattern = "noise",
+                                             .stages = {radial()},
+                                             .variance_pattern = "spoilt",
+                                             .variance_scale = 1,
+                                             .packed = GetParam()});
   const Images clean = run_filters(scene_, {.pattern = "noise", .stages = {radial()}});
   expect_same(images.at("radiance"), clean.at("radiance"));
 }
+
+TEST_P(DenoiseGuide, AGuideOfNoVarianceLeavesTheFullLength) {
+  const image::HostImage plain = run_filters(scene_, {.pattern = "noise", .stages = {radial()}}).at("radiance");
+  expect_same(plain,
+              run_filters(scene_, {.pattern = "noise", .stages = {radial()}, .packed = GetParam()}).at("radiance"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Variance, DenoiseGuide, ::testing::Bool(),
+                         [](const auto& given) { return given.param ? "Packed" : "InImages"; });
 
 }  // namespace
 }  // namespace lightloom::test

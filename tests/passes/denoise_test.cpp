@@ -10,9 +10,10 @@ namespace {
 
 constexpr uint32_t kSize = 65;
 
-/// All four spatial filters, by type and axis.
+/// All four spatial filters, by type and axis, and whether neighbours are judged by what `filter_guide` packs.
 struct FilterCase {
   std::string type, axis;
+  bool packed = false;
 };
 
 class Denoise : public DeviceTest, public ::testing::WithParamInterface<FilterCase> {
@@ -20,11 +21,14 @@ class Denoise : public DeviceTest, public ::testing::WithParamInterface<FilterCa
   void SetUp() override { DeviceTest::SetUp(); }
 
   static Images filter(const scene::Scene& scene, const std::string& pattern, const FilterCase& filter) {
+    const std::string guide = filter.packed ? R"(, "guide": "guide.guide")" : "";
     const std::string passes = R"("gather": { "type": "gather" },
+      "guide": { "type": "filter_guide", "in": { "surface": "gather.surface" } },
       "pattern": { "type": "pattern", "in": { "surface": "gather.surface" }, "params": { "pattern": ")" +
                                pattern + R"(" } },
       "filter": { "type": ")" + filter.type +
-                               R"(", "in": { "radiance": "pattern.radiance", "surface": "gather.surface" },
+                               R"(", "in": { "radiance": "pattern.radiance", "surface": "gather.surface")" + guide +
+                               R"( },
                   "params": { "axis": ")" +
                                filter.axis + R"(" } })";
     GraphRunOptions options;
@@ -132,8 +136,12 @@ TEST_P(Denoise, OneSpoiltPixelDoesNotSpread) {
 INSTANTIATE_TEST_SUITE_P(Filters, Denoise,
                          ::testing::Values(FilterCase{"denoise_radial", "tangent"},
                                            FilterCase{"denoise_radial", "bitangent"}, FilterCase{"box_blur", "x"},
-                                           FilterCase{"box_blur", "y"}),
-                         [](const auto& row) { return row.param.type + "_" + row.param.axis; });
+                                           FilterCase{"box_blur", "y"}, FilterCase{"denoise_radial", "tangent", true},
+                                           FilterCase{"denoise_radial", "bitangent", true},
+                                           FilterCase{"box_blur", "x", true}, FilterCase{"box_blur", "y", true}),
+                         [](const auto& row) {
+                           return row.param.type + "_" + row.param.axis + (row.param.packed ? "_packed" : "");
+                         });
 
 /// Kernel length of the radial filter along x on a wall at 3 m, in pixels either side.
 class DenoiseRadial : public Denoise {};

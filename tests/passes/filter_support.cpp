@@ -16,6 +16,12 @@ Images run_filters(const scene::Scene& scene, const FilterRun& run) {
            << run.variance_pattern << R"(", "scale": )" << run.variance_scale << " } }";
     variance = R"(, "variance": "variance.radiance")";
   }
+  if (run.packed) {
+    passes
+        << R"(, "guide": { "type": "filter_guide", "in": { "surface": "gather.surface", "radiance": "pattern.radiance")"
+        << variance << " } }";
+    variance = R"(, "guide": "guide.guide")";
+  }
   std::string source = "pattern";
   for (size_t i = 0; i < run.stages.size(); ++i) {
     const std::string name = "filter" + std::to_string(i);

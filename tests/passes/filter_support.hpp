@@ -23,6 +23,7 @@ struct FilterRun {
   std::string variance_pattern =
       {};  ///< empty: `variance` stays unconnected; else its red channel is what all stages get
   double variance_scale = 1;
+  bool packed = false;  ///< neighbours are judged by what `filter_guide` packs
 };
 
 /// Outputs `radiance` and `pattern`, and the G-buffer's position and normal.
