@@ -6,13 +6,19 @@ namespace lightloom::passes {
 namespace {
 
 Port surface_output() {
-  return bundle_output("surface", surface_parts(), ExtentRule::view, Access::color_attachment_write,
+  return bundle_output("surface", surface_parts(), ExtentRule::view, Access::compute_storage_write,
                        "the G-buffer; 0 throughout where nothing is seen");
 }
 
 Port depth_scratch() {
   return scratch_image("depth", {"", Format::d32_sfloat, "clip-space depth, 0 near to 1 far"}, ExtentRule::view,
                        Access::depth_attachment_write, "depth test");
+}
+
+Port visibility_scratch() {
+  return scratch_image("visibility",
+                       {"", Format::r32_uint, "index of the triangle that is seen + 1; 0: the background"},
+                       ExtentRule::view, Access::color_attachment_write, "which triangle each pixel shows");
 }
 
 Port motion_output() {
@@ -30,24 +36,32 @@ Port motion_output() {
   return port;
 }
 
-void draw_surface(PassContext& context) {
-  context.clear("surface", {0, 0, 0, 0});
+// Which triangle each pixel shows: what is hidden costs a depth test, and the surface is computed once a pixel.
+void draw_visibility(PassContext& context) {
+  context.clear("visibility", {0, 0, 0, 0});
   const TriangleRange fixed = context.static_triangles();
-  const uint32_t count = fixed.count + context.dynamic_triangles().count;
-  if (count == 0) return;
-  // One draw: dynamic triangles follow the static ones in the buffer.
-  context.draw({.vertex_shader = "gather.vert",
-                .fragment_shader = "gather.frag",
-                .first_triangle = fixed.first,
-                .triangle_count = count,
-                .depth_port = "depth",
-                .area = {},
-                .values = {}});
+  // Dynamic triangles follow the static ones in the buffer.
+  Draw draw{.vertex_shader = "gather.vert",
+            .fragment_shader = "gather.frag",
+            .first_triangle = fixed.first,
+            .triangle_count = fixed.count + context.dynamic_triangles().count,
+            .depth_port = "depth",
+            .area = {},
+            .values = {},
+            .keep_depth = false};
+  if (draw.triangle_count == 0) return;
+  context.draw(draw);
+  if (!context.scene_has("alpha")) return;
+  // A shader that discards is run before the depth test, so what has no holes does not come this way.
+  draw.vertex_shader = "gather_masked.vert";
+  draw.fragment_shader = "gather_masked.frag";
+  draw.keep_depth = true;
+  context.draw(draw);
 }
 
 void record(PassContext& context) {
-  draw_surface(context);
-  // Not in the draw: the G-buffer has as many attachments as every device allows.
+  draw_visibility(context);
+  context.dispatch({"gather_surface.comp", context.output_extent("surface"), {}});
   if (context.wanted("motion")) context.dispatch({"gather_motion.comp", context.output_extent("motion"), {}});
 }
 
@@ -58,9 +72,11 @@ PassType make_gather() {
   type.name = "gather";
   type.doc =
       "Rasterised G-buffer: the first surface through each pixel with its material (paper, section 2.1), because "
-      "voxels are too coarse for the first hit. Alpha-masked texels are cut out; the back of a single-sided material "
+      "voxels are too coarse for the first hit. What is drawn is which triangle each pixel shows; the surface is then "
+      "computed once a pixel, where the ray through its centre meets that triangle. Alpha-masked texels are cut out; "
+      "the back of a single-sided material "
       "is not seen; a double-sided one is turned to the viewer.";
-  type.ports = {surface_output(), motion_output(), depth_scratch()};
+  type.ports = {surface_output(), motion_output(), visibility_scratch(), depth_scratch()};
   type.reads = FrameState::camera | FrameState::static_geometry | FrameState::dynamic_geometry | FrameState::materials;
   type.record = record;
   return type;

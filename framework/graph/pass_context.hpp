@@ -46,6 +46,7 @@ struct Draw {
   std::string depth_port;  ///< scratch port, d32_sfloat; cleared to 1, less-or-equal test; empty: no depth test
   Extent3 area;            ///< viewport [pixels] without a depth port; else the depth port's extent is taken
   std::vector<ShaderValue> values;
+  bool keep_depth = false;  ///< go on with the depth of an earlier draw of this pass instead of clearing it
 };
 
 struct TriangleRange {
@@ -72,6 +73,9 @@ class PassContext {
   [[nodiscard]] virtual bool connected(std::string_view input_port) const = 0;
   [[nodiscard]] virtual TriangleRange static_triangles() const = 0;
   [[nodiscard]] virtual TriangleRange dynamic_triangles() const = 0;
+  /// Has the scene what the shaders' constant `has_<feature>` tells of (shaders/lib/features.glsl)? Throws Error for a
+  /// feature that there is not.
+  [[nodiscard]] virtual bool scene_has(std::string_view feature) const = 0;
   /// Does a persistent port still hold what this pass left in it in the frame before? If not (the first frame, a
   /// history of the value is kept), all of it must be written.
   [[nodiscard]] virtual bool kept(std::string_view port) const = 0;

@@ -52,6 +52,13 @@ bool PassRecorder::connected(std::string_view input_port) const {
   return std::any_of(pass_.inputs.begin(), pass_.inputs.end(), [&](const Use& use) { return use.port == input_port; });
 }
 
+bool PassRecorder::scene_has(std::string_view feature) const {
+  const std::string name = "has_" + std::string(feature);
+  for (const ShaderValue& value : environment_.scene->values)
+    if (const bool* has = std::get_if<bool>(&value.value); has != nullptr && value.name == name) return *has;
+  fail(pass_, "asks whether the scene has '" + std::string(feature) + "', which is no feature of scenes");
+}
+
 bool PassRecorder::kept(std::string_view port) const {
   const auto persistent = std::find_if(pass_.type->ports.begin(), pass_.type->ports.end(), [&](const Port& candidate) {
     return candidate.persistent && candidate.name == port && candidate.direction != Direction::in;
@@ -175,10 +182,10 @@ void PassRecorder::draw(const Draw& draw) {
   if (!draw.depth_port.empty()) {
     const Use& use = written_use(draw.depth_port);
     touches.push_back(written_touch(pass_, use, Access::depth_attachment_write));
-    depth = gpu::DepthTarget{written_view(use), 1.0f};
+    depth = gpu::DepthTarget{written_view(use), draw.keep_depth ? std::nullopt : std::optional(1.0f)};
     formats.depth = depth->view.format;
     extent = graph_.values[use.value].desc.extent;
-    environment_.watch->clears(pass_, use.port);
+    if (!draw.keep_depth) environment_.watch->clears(pass_, use.port);
   }
   const std::vector<ShaderValue> values = values_for(program.reflection, draw.values);
   const gpu::Pipeline& pipeline =

@@ -1,14 +1,15 @@
 // What the spatial filters ask of a neighbour, in one texel of 128 bits. x: 24 bits of the object, 8 of the error, whose
 // logarithm is stored. y: unit normal, octahedral (Cigolle et al. 2014, "A Survey of Efficient Representations for
-// Independent Unit Vectors", JCGT 3(2)), twice 12 bits, and 8 bits of a power of two. z, w: position from the viewer in
-// parts of that power, three times 16 bits; the upper half of the variance as a float.
+// Independent Unit Vectors", JCGT 3(2)), twice 12 bits, and 8 bits of a power of two. z, w: position from the viewer (of
+// an orthographic camera: from the middle of the scene) in parts of that power, three times 16 bits; the upper half of
+// the variance as a float.
 #ifndef LIGHTLOOM_LIB_FILTER_GUIDE
 #define LIGHTLOOM_LIB_FILTER_GUIDE
 
 struct Guide {
   uint object;      // 0: background; objects 2^24 apart are told for one
   vec3 normal;      // within 0.001
-  vec3 position;    // from the viewer [m], within 2^-15 of its largest coordinate
+  vec3 position;    // from that point [m], within 2^-15 of its largest coordinate
   float variance;   // of the luminance, within 1/256 of itself
   float error;      // relative standard error of the radiance (lib/relative_error.glsl), within 1/40 of itself
 };

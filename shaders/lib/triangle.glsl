@@ -17,18 +17,22 @@ vec4 vertex_color(uint index) { return unpackUnorm4x8(vertices[index].color); }
 
 Corners world_corners(Triangle t) { return Corners(vertex_position(t.a), vertex_position(t.b), vertex_position(t.c)); }
 
+// By the weights of the corners, which add up to 1: as differences from the first, so that what is the same at all three
+// keeps its bits.
+vec4 interpolate(vec4 a, vec4 b, vec4 c, vec3 w) { return a + (b - a) * w.y + (c - a) * w.z; }
+
 vec3 interpolate_normal(Triangle t, vec3 w) {
-  return vertex_normal(t.a) * w.x + vertex_normal(t.b) * w.y + vertex_normal(t.c) * w.z;
+  return interpolate(vec4(vertex_normal(t.a), 0.0), vec4(vertex_normal(t.b), 0.0), vec4(vertex_normal(t.c), 0.0), w).xyz;
 }
 vec4 interpolate_tangent(Triangle t, vec3 w) {
-  vec3 direction = vertex_tangent(t.a).xyz * w.x + vertex_tangent(t.b).xyz * w.y + vertex_tangent(t.c).xyz * w.z;
-  return vec4(direction, vertex_tangent(t.a).w);
+  vec4 tangent = interpolate(vertex_tangent(t.a), vertex_tangent(t.b), vertex_tangent(t.c), w);
+  return vec4(tangent.xyz, vertex_tangent(t.a).w);
 }
 vec4 interpolate_texcoords(Triangle t, vec3 w) {
-  return vertex_texcoords(t.a) * w.x + vertex_texcoords(t.b) * w.y + vertex_texcoords(t.c) * w.z;
+  return interpolate(vertex_texcoords(t.a), vertex_texcoords(t.b), vertex_texcoords(t.c), w);
 }
 vec4 interpolate_color(Triangle t, vec3 w) {
-  return vertex_color(t.a) * w.x + vertex_color(t.b) * w.y + vertex_color(t.c) * w.z;
+  return interpolate(vertex_color(t.a), vertex_color(t.b), vertex_color(t.c), w);
 }
 
 // Change of the texture coordinates over one unit of length along the edge ab, and across it within the triangle.
