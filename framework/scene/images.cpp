@@ -99,7 +99,7 @@ ImageHeader check_texture(const std::vector<uint8_t>& bytes, const std::string& 
 }
 
 Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, const std::string& name,
-                   const Limits& limits) {
+                   const Limits& limits, std::mutex* opening) {
   const ImageHeader header = check_texture(bytes, file, name, limits);
   const std::string format = header.format == ImageFileFormat::png ? "png" : "jpeg";
   OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
@@ -108,7 +108,12 @@ Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, c
   const auto input = OIIO::ImageInput::create(format);
   if (!input) fail(file, name, "cannot be decoded: " + reason_of(OIIO::geterror()));
   OIIO::ImageSpec spec;
-  if (!input->set_ioproxy(&reader) || !input->open(format, spec, config)) {
+  // OpenImageIO 2.4 fills a table of its own with what it meets in colour profiles, whoever else does so meanwhile.
+  const bool open = [&] {
+    const std::unique_lock one_at_a_time = opening ? std::unique_lock(*opening) : std::unique_lock<std::mutex>();
+    return input->set_ioproxy(&reader) && input->open(format, spec, config);
+  }();
+  if (!open) {
     fail(file, name, "cannot be decoded: " + reason_of(input->geterror()), "the image may be truncated");
   }
   require_as_in_header(spec, header, file + ": " + name);
@@ -140,10 +145,11 @@ std::vector<Image> load_images(const GltfFile& file, const std::vector<int>& ind
     file.context->spend_image(header.width * header.height, file.name + ": " + source.name);
   }
   std::vector<Image> images(indices.size());
+  std::mutex opening;
   run_parallel(indices.size(), [&](size_t i) {
     stop_if_interrupted();
     const std::string& name = file.images[static_cast<size_t>(indices[i])].name;
-    images[i] = decode_image(encoded[i], file.name, name, file.context->limits());
+    images[i] = decode_image(encoded[i], file.name, name, file.context->limits(), &opening);
     encoded[i] = {};
   });
   return images;

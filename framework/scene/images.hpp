@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@ namespace lightloom::scene {
 void run_parallel(size_t count, const std::function<void(size_t)>& task);
 
 /// Decodes PNG or JPEG to RGBA8: 16-bit samples are rounded, grey is spread, missing alpha is 255, alpha is not
-/// premultiplied. Throws Error naming `file` and `name`; nothing is allocated for an image beyond the limits.
+/// premultiplied. Throws Error naming `file` and `name`; nothing is allocated for an image beyond the limits. Whoever
+/// decodes in several threads gives them one mutex for the part of it that OpenImageIO can do only once at a time.
 [[nodiscard]] Image decode_image(const std::vector<uint8_t>& bytes, const std::string& file, const std::string& name,
-                                 const Limits& limits = {});
+                                 const Limits& limits = {}, std::mutex* opening = nullptr);
 
 /// Decodes the listed images of a file, in parallel. Throws Error for the first that is missing or broken; nothing is
 /// decoded unless all of them together are within the limits.
