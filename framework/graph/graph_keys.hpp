@@ -32,7 +32,7 @@ constexpr std::array<KeyDoc, 7> kPassKeys{{
     {"params", "Its params; those left out have their default"},
     {"formats", "How its outputs are stored, by PORT or PORT.PART; those left out as its type says"},
     {"enabled", "false: the pass is off, and each of its outputs is replaced by its bypass"},
-    {"when", "The pass is off unless the scene has the feature, or, with '!', lacks it"},
+    {"when", "The pass is off unless the scene has the feature (or the sizes differ), or, with '!', lacks it"},
     {"doc", "For people"},
 }};
 
@@ -45,7 +45,7 @@ constexpr std::array<KeyDoc, 9> kComputeKeys{{
     {"threads", "Output that has a thread for each texel; the first unless given"},
     {"params", "Its params: values of the shader's push constants and specialization constants"},
     {"enabled", "false: the pass is off, and each of its outputs is replaced by its bypass"},
-    {"when", "The pass is off unless the scene has the feature, or, with '!', lacks it"},
+    {"when", "The pass is off unless the scene has the feature (or the sizes differ), or, with '!', lacks it"},
     {"doc", "For people"},
 }};
 

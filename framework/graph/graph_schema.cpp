@@ -151,7 +151,7 @@ Json pass_type_schema(const PassType& type) {
 }
 
 Json when_schema(const std::vector<std::string>& scene_features) {
-  Json when = Json::array();
+  Json when = Json::array({kSizesDiffer, "!" + std::string(kSizesDiffer)});
   for (const std::string& feature : scene_features) {
     when.push_back("scene." + feature);
     when.push_back("!scene." + feature);

@@ -70,6 +70,9 @@ struct ComputeOutputSpec {
 /// The type of a node of type `compute`.
 constexpr std::string_view kComputeType = "compute";
 
+/// The condition of `when` that the trace has another size than the view.
+constexpr std::string_view kSizesDiffer = "sizes.differ";
+
 struct ComputeSpec {
   TextSpec shader;  ///< file, as written
   std::vector<ComputeOutputSpec> outputs;

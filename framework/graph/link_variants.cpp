@@ -192,29 +192,42 @@ void check_declared(const Node& node, Report& report) {
                    did_you_mean(connection.name, port_names(type, Direction::in), "its inputs"));
 }
 
-void apply_when(Node& node, const LinkEnvironment& environment, Report& report) {
-  const TextSpec& when = *node.spec->when;
-  std::string_view feature = when.text;
-  const bool negated = feature.starts_with('!');
-  if (negated) feature.remove_prefix(1);
+/// Is the trace of another size than the view, where passes between the two have something to do?
+bool sizes_differ(const Input& input) {
+  const auto size = [](const SizeSpec& own, const std::optional<std::pair<uint32_t, uint32_t>>& wanted) {
+    return wanted.value_or(std::pair{own.width, own.height});
+  };
+  return size(input.spec.view, input.options.view) != size(input.spec.trace, input.options.trace);
+}
+
+/// Whether a condition holds, without its '!'; reports one that there is not.
+std::optional<bool> holds(std::string_view condition, const TextSpec& when, const Input& input, Report& report) {
+  if (condition == kSizesDiffer) return sizes_differ(input);
   constexpr std::string_view kPrefix = "scene.";
-  if (!feature.starts_with(kPrefix)) {
+  if (!condition.starts_with(kPrefix)) {
     report.error("bad-condition", when.where,
-                 "'when' must be \"scene.FEATURE\" or \"!scene.FEATURE\", not " + in_quotes(when.text));
-    return;
+                 "'when' must be \"scene.FEATURE\" or \"" + std::string(kSizesDiffer) +
+                     "\", or one of them behind '!', not " + in_quotes(when.text));
+    return std::nullopt;
   }
-  feature.remove_prefix(kPrefix.size());
+  const std::string_view feature = condition.substr(kPrefix.size());
   std::vector<std::string> names;
-  for (const auto& [name, present] : environment.scene_features) {
+  for (const auto& [name, present] : input.environment.scene_features) {
     names.push_back(name);
-    if (name != feature) continue;
-    if (present != negated || !node.enabled()) return;
-    node.disabled = "\"when\": \"" + when.text + "\" does not hold";
-    node.disabled_where = when.where;
-    return;
+    if (name == feature) return present;
   }
   report.error("unknown-feature", when.where, "there is no scene feature " + in_quotes(feature),
                did_you_mean(feature, names, "features"));
+  return std::nullopt;
+}
+
+void apply_when(Node& node, const Input& input, Report& report) {
+  const TextSpec& when = *node.spec->when;
+  const bool negated = when.text.starts_with('!');
+  const std::optional<bool> held = holds(std::string_view(when.text).substr(negated ? 1 : 0), when, input, report);
+  if (!held || *held != negated || !node.enabled()) return;
+  node.disabled = "\"when\": \"" + when.text + "\" does not hold";
+  node.disabled_where = when.where;
 }
 
 Nodes nodes_of_file(const Input& input, Report& report) {
@@ -231,7 +244,7 @@ Nodes nodes_of_file(const Input& input, Report& report) {
       node.disabled = "\"enabled\": false";
       node.disabled_where = spec.enabled_where;
     }
-    if (spec.when) apply_when(node, input.environment, report);
+    if (spec.when) apply_when(node, input, report);
     if (spec.type.text.empty()) continue;
     node.type = type_in_file(spec, input.registry);
     if (node.type != nullptr) {

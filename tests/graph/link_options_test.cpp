@@ -22,6 +22,24 @@ std::vector<std::string> culled(const Graph& graph) {
 
 using Names = std::vector<std::string>;
 
+TEST(When, SizesDiffer) {
+  for (const bool negated : {false, true}) {
+    const std::string text = file(kSource + R"(, "f": {"type": "filter", "in": {"x": "s.a"}, "when": ")" +
+                                      (negated ? "!" : "") + R"(sizes.differ"})",
+                                  R"("o": "f.a")");
+    const auto has_filter = [&](uint32_t width, uint32_t height) {
+      LinkOptions options;
+      options.view = {64, 48};
+      options.trace = {width, height};
+      const Graph graph = graph_of(text, options);
+      return std::any_of(graph.passes.begin(), graph.passes.end(), [](const GraphPass& p) { return p.name == "f"; });
+    };
+    EXPECT_EQ(has_filter(64, 48), negated);
+    EXPECT_EQ(has_filter(32, 48), !negated);
+    EXPECT_EQ(has_filter(64, 24), !negated);
+  }
+}
+
 TEST(Swap, KeepsWhatTheNewTypeKnowsAndCullsTheRest) {
   LinkOptions options;
   options.swaps = {{"f", "blur"}};
