@@ -32,8 +32,9 @@ TEST(LightloomGraph, LobesAreFilteredApartByTheSamePassTypes) {
     for (const std::string stage : {"tangent", "bitangent", "box_x", "box_y"}) {
       const std::string name = "denoise_" + lobe + "_" + stage;
       EXPECT_EQ(toy::pass(graph, name).params.choice("lobe"), lobe);
-      EXPECT_EQ(toy::source(graph, name, "variance"), "temporal_" + lobe + ".variance");
+      EXPECT_EQ(toy::source(graph, name, "guide"), "guide_" + lobe + ".guide");
     }
+    EXPECT_EQ(toy::source(graph, "guide_" + lobe, "variance"), "temporal_" + lobe + ".variance");
   }
   EXPECT_EQ(toy::source(graph, "upsample", "radiance"), "denoise_diffuse_box_y.radiance");
   EXPECT_EQ(toy::source(graph, "upsample", "specular"), "denoise_specular_box_y.radiance");

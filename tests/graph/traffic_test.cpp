@@ -46,8 +46,8 @@ TEST(Traffic, CountsEachLayerOfAHistoryAndScratchBothWays) {
   const Graph graph = paper();
   // This frame's radiance and surface; of the nine frames before, radiance, position, normal and id.
   EXPECT_EQ(traffic(graph, "temporal").bytes_read(), kPixels * (16 + kSurface + 9 * (16 + 16 + 8 + 16)));
-  EXPECT_EQ(traffic(graph, "gather").bytes_written(), kPixels * (kSurface + 4)) << "and the depth";
-  EXPECT_EQ(traffic(graph, "gather").bytes_read(), kPixels * 4) << "the depth alone";
+  EXPECT_EQ(traffic(graph, "gather").bytes_written(), kPixels * (kSurface + 4 + 4)) << "and visibility and depth";
+  EXPECT_EQ(traffic(graph, "gather").bytes_read(), kPixels * (4 + 4)) << "these two alone";
 }
 
 TEST(Traffic, LeavesOutWhatNeedNotBeTouched) {
