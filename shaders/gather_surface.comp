@@ -79,7 +79,7 @@ Surface surface_at(ivec2 pixel, ivec2 size, uint index) {
 
   vec3 to_viewer = normalize(frame.eye[0].xyz - position * frame.eye[0].w);
   vec3 face_normal = safe_normalize(area_normal(corners), vec3(0.0, 1.0, 0.0));
-  bool back = dot(face_normal, frame.eye[0].xyz - corners.a * frame.eye[0].w) < 0.0;
+  bool back = seen_from_behind(corners, face_normal);
   vec4 tangent = interpolate_tangent(t, weights);
   ShadingFrame shading = shading_frame(face_normal, interpolate_normal(t, weights), tangent, m, back, to_viewer);
 

@@ -25,7 +25,9 @@ std::string mebibytes(uint64_t bytes) {
 std::string ratio_text(const study::RatioEstimate& ratio) {
   std::string text = number(ratio.median);
   if (ratio.low < ratio.high) text += " (" + number(ratio.low) + " to " + number(ratio.high) + ")";
-  return text + (ratio.within_noise ? ", within the noise" : "");
+  const bool holds_one = ratio.low <= 1 && ratio.high >= 1;
+  if (!ratio.within_noise) return text;
+  return text + (holds_one ? ", within the noise" : ", too few frames to tell");
 }
 
 class Report {

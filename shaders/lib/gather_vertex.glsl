@@ -8,12 +8,6 @@
 // A corner that its two companions share leaves no pixels.
 const vec4 kNowhere = vec4(0.0, 0.0, 2.0, 1.0);
 
-// Does the viewer see the back of a face with this normal, of any length?
-bool seen_from_behind(Corners corners, vec3 face_normal) {
-  vec3 to_viewer = frame.eye[0].xyz - corners.a * frame.eye[0].w;
-  return dot(face_normal, to_viewer) < 0.0;
-}
-
 uint corner_vertex(Triangle t, uint corner) { return corner == 0u ? t.a : corner == 1u ? t.b : t.c; }
 
 // Where a corner is in clip space. Nowhere if the viewer sees the back of a single-sided material, and if there is no

@@ -17,6 +17,12 @@ vec4 vertex_color(uint index) { return unpackUnorm4x8(vertices[index].color); }
 
 Corners world_corners(Triangle t) { return Corners(vertex_position(t.a), vertex_position(t.b), vertex_position(t.c)); }
 
+// Does the viewer see the back of a face with this normal, of any length?
+bool seen_from_behind(Corners corners, vec3 face_normal) {
+  vec3 to_viewer = frame.eye[0].xyz - corners.a * frame.eye[0].w;
+  return dot(face_normal, to_viewer) < 0.0;
+}
+
 // By the weights of the corners, which add up to 1: as differences from the first, so that what is the same at all three
 // keeps its bits.
 vec4 interpolate(vec4 a, vec4 b, vec4 c, vec3 w) { return a + (b - a) * w.y + (c - a) * w.z; }

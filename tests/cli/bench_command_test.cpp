@@ -88,6 +88,28 @@ TEST(BenchReport, IsATableOfPassesWithWhatIsSpentOnce) {
   EXPECT_THAT(text, Not(HasSubstr("near the limit")));
 }
 
+TEST(BenchReport, SaysWhyADifferenceIsNone) {
+  study::BenchRecord record;
+  study::BenchFigures run;
+  run.passes = {"trace"};
+  record.plans = {Plan{}, Plan{}};
+  const auto report = [&](const std::vector<double>& first, const std::vector<double>& second) {
+    record.settings.frames = static_cast<uint32_t>(first.size());
+    record.runs = {run, run};
+    record.runs[0].frame_ms = first;
+    record.runs[0].pass_ms = {first};
+    record.runs[1].frame_ms = second;
+    record.runs[1].pass_ms = {second};
+    return bench_report(record);
+  };
+  EXPECT_THAT(report({10, 12}, {5, 6}), HasSubstr("too few frames to tell"));
+  EXPECT_THAT(report({10, 12}, {12, 10}), HasSubstr("within the noise"));
+  const std::string clear = report({10, 10, 10, 10, 10, 10}, {5, 5, 5, 5, 5, 5});
+  EXPECT_THAT(clear, HasSubstr("whole frame"));
+  EXPECT_THAT(clear, Not(HasSubstr("too few frames")));
+  EXPECT_THAT(clear, Not(HasSubstr("within the noise")));
+}
+
 TEST(BenchReport, SetsFloorsBesideWhatWasMeasured) {
   study::BenchRecord record;
   study::BenchFigures run;
