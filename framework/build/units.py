@@ -30,7 +30,6 @@ NOT_CODE = re.compile(r'//[^\n]*|R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"', re.DOTA
 # A name behind one of these is looked up in what stands before it.
 WORD = re.compile(r"(?<![\w.:>])(?<!-)([A-Za-z_]\w*)\b|(?<!-)>([A-Za-z_]\w*)")
 
-
 ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "../..")
 
 
@@ -104,8 +103,7 @@ def cmake_lines(paths):
     return "".join(lines)
 
 
-def main():
-    output, paths = sys.argv[1], sys.argv[2:]
+def write(output, paths):
     lines = cmake_lines(paths)
     if os.path.exists(output):
         with open(output, encoding="utf-8") as old:
@@ -116,4 +114,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    write(sys.argv[1], sys.argv[2:])
