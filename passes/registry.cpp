@@ -9,6 +9,7 @@
 #include "passes/filter_guide.hpp"
 #include "passes/gather.hpp"
 #include "passes/modulate.hpp"
+#include "passes/pack_surface.hpp"
 #include "passes/ray_query_path_trace.hpp"
 #include "passes/reference_path_trace.hpp"
 #include "passes/resample_surface.hpp"
@@ -34,7 +35,9 @@ void register_builtin_passes(PassRegistry& registry) {
   registry.add(make_voxel_path_trace());
   registry.add(make_reference_path_trace());
   registry.add(make_ray_query_path_trace());
+  registry.add(make_pack_surface());
   registry.add(make_temporal_accumulate());
+  registry.add(make_temporal_accumulate_packed());
   registry.add(make_accumulate());
   registry.add(make_filter_guide());
   registry.add(make_denoise_radial());

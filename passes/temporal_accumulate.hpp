@@ -6,4 +6,7 @@ namespace lightloom::passes {
 
 [[nodiscard]] PassType make_temporal_accumulate();
 
+/// The same with what earlier frames saw packed by `pack_surface`.
+[[nodiscard]] PassType make_temporal_accumulate_packed();
+
 }  // namespace lightloom::passes

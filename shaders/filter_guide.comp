@@ -5,6 +5,7 @@
 
 #include "lib/basis.glsl"
 #include "lib/filter_guide.glsl"
+#include "lib/reference_point.glsl"
 #include "lib/relative_error.glsl"
 #include "lib/scene.glsl"
 #include "lib/variance.glsl"
@@ -18,20 +19,14 @@ uniform texture2D surface_position;
 uniform texture2D surface_normal;
 uniform writeonly uimage2D out_guide;
 
-// What positions are taken from: the viewer, who is close to what has to be told apart, or for an orthographic camera, which
-// is nowhere, the middle of the scene.
-vec3 reference_point() {
-  return frame.eye[0].w > 0.5 ? frame.eye[0].xyz : 0.5 * (frame.scene_min.xyz + frame.scene_max.xyz);
-}
-
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, textureSize(surface_position, 0)))) return;
   vec4 position = texelFetch(surface_position, pixel, 0);
   Guide guide;
   guide.object = texelFetch(surface_id, pixel, 0).x;
-  guide.normal = safe_normalize(texelFetch(surface_normal, pixel, 0).xyz, vec3(0.0, 0.0, 1.0));
-  guide.position = position.xyz - reference_point();
+  guide.point.normal = safe_normalize(texelFetch(surface_normal, pixel, 0).xyz, vec3(0.0, 0.0, 1.0));
+  guide.point.position = position.xyz - reference_point(0u);
   guide.variance = variance_bound ? min(texelFetch(variance, pixel, 0).x, kUnknownVariance) : kUnknownVariance;
   guide.error = variance_bound && radiance_bound ? relative_error(pixel, guide.object) : kUnknownError;
   imageStore(out_guide, pixel, position.w > 0.0 ? pack_guide(guide) : uvec4(0));

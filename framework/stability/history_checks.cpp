@@ -166,7 +166,7 @@ void add_history_checks(std::vector<Check>& checks) {
       "such a pixel starts anew: shaders/accumulate.comp, is_sound", measure_sums);
   add("spoilt_trails", "a position or a normal of an earlier frame is NaN or infinite",
       "a comparison that is false for NaN takes the pixel for the same surface",
-      "tests that only numbers pass: shaders/temporal_accumulate.comp, find_in_frame", measure_trails);
+      "tests that only numbers pass: shaders/lib/temporal.glsl, find_in_frame", measure_trails);
 }
 
 }  // namespace lightloom::stability

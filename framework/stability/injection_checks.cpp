@@ -111,8 +111,8 @@ void add_injection_checks(std::vector<Check>& checks) {
                     .group = "injected NaN",
                     .extreme = "a pixel of one frame's light is NaN or infinite on its way to filters and history",
                     .danger = "the filters spread it, the history keeps it: white areas that never go",
-                    .guard = "bit tests before every sum: shaders/temporal_accumulate.comp, add_frame; "
-                             "shaders/lib/neighbour.glsl, add_neighbour",
+                    .guard = "bit tests before every sum: shaders/lib/temporal.glsl, add_frame; "
+                             "shaders/lib/neighbour.glsl, belongs",
                     .measure = measure_history});
   checks.push_back({.name = "spoilt_environment",
                     .group = "injected NaN",

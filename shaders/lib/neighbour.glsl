@@ -50,8 +50,8 @@ const bool knows_variance = variance_bound || guide_bound;
 // What tells whether a pixel belongs to the centre. Unpacked, positions are not from the viewer; only differences count.
 Guide load_guide(ivec2 pixel) {
   if (guide_bound) return unpack_guide(texelFetch(guide, pixel, 0));
-  return Guide(texelFetch(surface_id, pixel, 0).x, texelFetch(surface_normal, pixel, 0).xyz,
-               texelFetch(surface_position, pixel, 0).xyz, variance_bound ? texelFetch(variance, pixel, 0).x : 0.0, 0.0);
+  SurfacePoint point = SurfacePoint(texelFetch(surface_normal, pixel, 0).xyz, texelFetch(surface_position, pixel, 0).xyz);
+  return Guide(texelFetch(surface_id, pixel, 0).x, point, variance_bound ? texelFetch(variance, pixel, 0).x : 0.0, 0.0);
 }
 
 float scene_diagonal() { return length(frame.scene_max.xyz - frame.scene_min.xyz); }
@@ -110,7 +110,7 @@ bool may_be_equal(Centre centre, float variance, vec4 value) {
   return !(tested && difference * difference > limit * limit * (centre.guide.variance + variance));
 }
 
-vec3 offset_from(Centre centre, Guide other) { return other.position - centre.guide.position; }
+vec3 offset_from(Centre centre, Guide other) { return other.point.position - centre.guide.point.position; }
 
 // Does a neighbour show the same object, face alike, lie within the radial cut-off and, as far as the variance tells,
 // may it have the same light?
@@ -118,7 +118,7 @@ bool belongs(Centre centre, Guide other, vec4 value) {
   vec3 offset = offset_from(centre, other);
   float cutoff = max(centre.reach.x, centre.reach.y);
   bool alike = all(bvec3(other.object == centre.guide.object, dot(offset, offset) <= cutoff * cutoff,
-                         dot(other.normal, centre.normal) >= centre.shape.normal_threshold));
+                         dot(other.point.normal, centre.normal) >= centre.shape.normal_threshold));
   return all(bvec4(alike, value.a > 0.0, is_finite(value.rgb), may_be_equal(centre, other.variance, value)));
 }
 

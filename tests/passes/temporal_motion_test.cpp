@@ -13,15 +13,19 @@ namespace {
 constexpr uint32_t kSize = kTemporalSize;
 constexpr uint32_t kWindow = 10;  // frames
 
-class TemporalMotion : public DeviceTest {};
+/// With what earlier frames saw in images of the G-buffer, or packed (the param).
+class TemporalMotion : public DeviceTest, public ::testing::WithParamInterface<bool> {
+ protected:
+  void SetUp() override { DeviceTest::SetUp(); }
 
-std::vector<Images> run(const scene::Scene& scene, uint32_t frames, const std::string& pattern = "texture") {
-  GraphRunOptions options;
-  options.frames = frames;
-  options.extra_types = {make_pattern(), make_test_displace()};
-  options.capture = {"gather.surface.position", "gather.surface.id"};
-  return run_graph(temporal_graph(pattern), scene, options);
-}
+  static std::vector<Images> run(const scene::Scene& scene, uint32_t frames, const std::string& pattern = "texture") {
+    GraphRunOptions options;
+    options.frames = frames;
+    options.extra_types = {make_pattern(), make_test_displace()};
+    options.capture = {"gather.surface.position", "gather.surface.id"};
+    return run_graph(temporal_graph(pattern, "", "gather.surface.position", GetParam()), scene, options);
+  }
+};
 
 uint32_t object_at(const Images& images, uint32_t x, uint32_t y) {
   return static_cast<uint32_t>(images.at("gather.surface.id").at(x, y, 0, 0));
@@ -89,7 +93,7 @@ double largest_smear(const Images& images) {
   return largest;
 }
 
-TEST_F(TemporalMotion, ATranslatingObjectKeepsItsHistoryAndUncoversNone) {
+TEST_P(TemporalMotion, ATranslatingObjectKeepsItsHistoryAndUncoversNone) {
   const MovingScene moving = translating_scene({-0.9, 0.1, 0}, {0.0917, 0.0113, 0.0371}, 0.9);
   const std::vector<Images> frames = run(moving.scene, 13);
   const Tally tally = check(moving, frames, 12);
@@ -99,7 +103,7 @@ TEST_F(TemporalMotion, ATranslatingObjectKeepsItsHistoryAndUncoversNone) {
   EXPECT_LT(largest_smear(frames[12]), 0.5 / 20);
 }
 
-TEST_F(TemporalMotion, WithoutTheMotionItWouldLoseItsHistory) {
+TEST_P(TemporalMotion, WithoutTheMotionItWouldLoseItsHistory) {
   MovingScene moving = translating_scene({-0.9, 0.1, 0}, {0.0917, 0.0113, 0.0371}, 0.9);
   moving.scene.features.dynamic = false;
   const std::vector<Images> frames = run(moving.scene, 13);
@@ -110,7 +114,7 @@ TEST_F(TemporalMotion, WithoutTheMotionItWouldLoseItsHistory) {
   EXPECT_LT(most, kWindow);
 }
 
-TEST_F(TemporalMotion, ARotatingObjectKeepsItsHistory) {
+TEST_P(TemporalMotion, ARotatingObjectKeepsItsHistory) {
   for (const glm::dvec3& axis : {glm::dvec3(0, 0, 1), glm::dvec3(0.1, 1, 0.2)}) {
     const MovingScene moving = rotating_scene(axis, 0.0619, 1.2);
     const std::vector<Images> frames = run(moving.scene, 16);
@@ -121,7 +125,7 @@ TEST_F(TemporalMotion, ARotatingObjectKeepsItsHistory) {
   }
 }
 
-TEST_F(TemporalMotion, SkinnedAndMorphedObjectsKeepTheirs) {
+TEST_P(TemporalMotion, SkinnedAndMorphedObjectsKeepTheirs) {
   for (const MovingScene& moving : {skinned_scene({0.0517, 0, 0.0231}), morphed_scene({-0.0517, 0, 0.0231})}) {
     const std::vector<Images> frames = run(moving.scene, 13);
     const Tally tally = check(moving, frames, 12);
@@ -130,7 +134,7 @@ TEST_F(TemporalMotion, SkinnedAndMorphedObjectsKeepTheirs) {
   }
 }
 
-TEST_F(TemporalMotion, FastMotionKeepsWhatIsInView) {
+TEST_P(TemporalMotion, FastMotionKeepsWhatIsInView) {
   // Nine pixels a frame: nothing overlaps with where it was.
   const MovingScene moving = translating_scene({-2.4, 0, 0.3}, {0.4517, 0, 0}, 0.4);
   const std::vector<Images> frames = run(moving.scene, 9);
@@ -139,12 +143,12 @@ TEST_F(TemporalMotion, FastMotionKeepsWhatIsInView) {
   EXPECT_GT(tally.fresh_wall, 100);
 }
 
-TEST_F(TemporalMotion, TheCamerasMotionAndTheObjectsAddUp) {
+TEST_P(TemporalMotion, TheCamerasMotionAndTheObjectsAddUp) {
   const MovingScene moving = dolly_scene({0.0317, 0.0119, -0.0413}, 0.0091);
   EXPECT_GT(check(moving, run(moving.scene, 13), 12).full, 300);
 }
 
-TEST_F(TemporalMotion, ACutKeepsWhatBothViewsSee) {
+TEST_P(TemporalMotion, ACutKeepsWhatBothViewsSee) {
   const MovingScene moving = cut_scene({0.4123, 0.2071, -0.3119}, 6);
   const std::vector<Images> frames = run(moving.scene, 12);
   for (const uint32_t frame : {6u, 8u, 11u}) check(moving, frames, frame);
@@ -159,7 +163,7 @@ TEST_F(TemporalMotion, ACutKeepsWhatBothViewsSee) {
     for (uint32_t x = 0; x < kSize; ++x) ASSERT_LE(weight_at(elsewhere[6], x, y), 1);
 }
 
-TEST_F(TemporalMotion, WhatAppearsStartsAnewAndWhatVanishesLeavesNothing) {
+TEST_P(TemporalMotion, WhatAppearsStartsAnewAndWhatVanishesLeavesNothing) {
   const MovingScene moving = flickering_scene(4, 8);
   const std::vector<Images> frames = run(moving.scene, 20);
   std::array<int, 2> seen{};
@@ -176,7 +180,7 @@ TEST_F(TemporalMotion, WhatAppearsStartsAnewAndWhatVanishesLeavesNothing) {
   EXPECT_GT(seen[0], 100);
 }
 
-TEST_F(TemporalMotion, IdsTellCoplanarObjectsApart) {
+TEST_P(TemporalMotion, IdsTellCoplanarObjectsApart) {
   // A sheet that lies on the wall is pulled away: neither position nor normal tells it from the wall.
   const MovingScene moving = jumping_scene({-0.6, 0, -0.98}, {0.7, 0, -0.98}, 6);
   const std::vector<Images> frames = run(moving.scene, 7, "object");
@@ -197,6 +201,9 @@ TEST_F(TemporalMotion, IdsTellCoplanarObjectsApart) {
   EXPECT_GT(uncovered, 60);
   EXPECT_GT(check(moving, frames, 6).mover, 60);
 }
+
+INSTANTIATE_TEST_SUITE_P(Trails, TemporalMotion, ::testing::Bool(),
+                         [](const auto& given) { return given.param ? "Packed" : "InImages"; });
 
 }  // namespace
 }  // namespace lightloom::test

@@ -40,16 +40,22 @@ scene::Material metal(float roughness) {
   return material;
 }
 
-std::string temporal_graph(const std::string& pattern, const std::string& params, const std::string& position) {
+std::string temporal_graph(const std::string& pattern, const std::string& params, const std::string& position,
+                           bool packed) {
+  const std::string type = packed ? "temporal_accumulate_packed" : "temporal_accumulate";
+  const std::string trails = packed ? R"("trail_point": "packed.point@1..9")"
+                                    : R"("trail_position": ")" + position +
+                                          R"(@1..9", "trail_normal": "gather.surface.normal@1..9",
+      "trail_id": "gather.surface.id@1..9")";
   const std::string passes = R"("gather": { "type": "gather" },
     "pattern": { "type": "pattern", "in": { "surface": "gather.surface" }, "params": { "pattern": ")" +
                              pattern + R"(" } },
     "moved": { "type": "test_displace", "in": { "surface": "gather.surface" } },
-    "temporal": { "type": "temporal_accumulate", "in": { "radiance": "pattern.radiance", "surface": "gather.surface",
-      "trail": "pattern.radiance@1..9", "trail_position": ")" +
-                             position + R"(@1..9", "trail_normal": "gather.surface.normal@1..9",
-      "trail_id": "gather.surface.id@1..9" }, "params": { )" +
-                             params + " } }";
+    "packed": { "type": "pack_surface", "in": { "surface": "gather.surface" } },
+    "temporal": { "type": ")" +
+                             type + R"(", "in": { "radiance": "pattern.radiance", "surface": "gather.surface",
+      "trail": "pattern.radiance@1..9", )" +
+                             trails + R"( }, "params": { )" + params + " } }";
   return graph_text(
       kTemporalSize, kTemporalSize, kTemporalSize, kTemporalSize, passes,
       R"("radiance": "temporal.radiance", "current": "pattern.radiance", "variance": "temporal.variance")");

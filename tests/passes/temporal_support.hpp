@@ -18,9 +18,10 @@ scene::Material metal(float roughness);
 PassType make_test_displace();
 
 /// Graph of `gather`, a test `pattern` and `temporal` (10 frames), all of kTemporalSize. `position`: the value that the
-/// trail of positions is made of. `params`: of `temporal`, as JSON members. Outputs: radiance, current, variance.
+/// trail of positions is made of. `params`: of `temporal`, as JSON members. `packed`: by what `pack_surface` makes of
+/// the G-buffer, whatever `position` is. Outputs: radiance, current, variance.
 std::string temporal_graph(const std::string& pattern, const std::string& params = "",
-                           const std::string& position = "gather.surface.position");
+                           const std::string& position = "gather.surface.position", bool packed = false);
 
 /// Runs it with the test passes `pattern` and `test_displace`.
 std::vector<Images> run_temporal(const scene::Scene& scene, const std::string& graph, uint32_t frames,

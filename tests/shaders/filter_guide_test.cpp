@@ -34,13 +34,14 @@ class FilterGuide : public DeviceTest {
 #include "lib/filter_guide.glsl"
 void evaluate(uint index) {
   uint i = index * 9u;
-  Guide g = Guide(uint(inputs[i]), vec3(inputs[i + 1u], inputs[i + 2u], inputs[i + 3u]),
-                  vec3(inputs[i + 4u], inputs[i + 5u], inputs[i + 6u]), inputs[i + 7u], inputs[i + 8u]);
+  SurfacePoint point = SurfacePoint(vec3(inputs[i + 1u], inputs[i + 2u], inputs[i + 3u]),
+                                    vec3(inputs[i + 4u], inputs[i + 5u], inputs[i + 6u]));
+  Guide g = Guide(uint(inputs[i]), point, inputs[i + 7u], inputs[i + 8u]);
   Guide back = unpack_guide(pack_guide(g));
   outputs[i] = float(back.object);
   for (uint k = 0u; k < 3u; ++k) {
-    outputs[i + 1u + k] = back.normal[k];
-    outputs[i + 4u + k] = back.position[k];
+    outputs[i + 1u + k] = back.point.normal[k];
+    outputs[i + 4u + k] = back.point.position[k];
   }
   outputs[i + 7u] = back.variance;
   outputs[i + 8u] = back.error;
@@ -129,6 +130,29 @@ TEST_F(FilterGuide, StandsTheExtremes) {
     for (const double value : {g.position[0], g.position[1], g.position[2], g.variance, g.error})
       EXPECT_TRUE(std::isfinite(value));
   EXPECT_EQ(round_trip({Guide{}})[0].position[0], 0);
+}
+
+TEST_F(FilterGuide, PackedSurfacesKeep24BitsOfIdsBesideTheirPoint) {
+  const std::vector<float> ids = {1, 0, 1, 255, 0xFFFFFF, 256, 7, 65535, 8, 65536, 9, 0xFFFFFF, 0xABCDEF, 0x123456};
+  const auto count = static_cast<uint32_t>(ids.size() / 2);
+  const std::vector<float> out = run_snippet(device(), R"(
+#include "lib/packed_surface.glsl"
+void evaluate(uint index) {
+  SurfacePoint point = SurfacePoint(vec3(0.0, -0.6, -0.8), vec3(-3.0, 2.0, 5.0));
+  PackedSurface back = unpack_surface(pack_surface(
+      PackedSurface(uint(inputs[2u * index]) + kPackedIds, uint(inputs[2u * index + 1u]) + 3u * kPackedIds, point)));
+  outputs[4u * index] = float(back.object);
+  outputs[4u * index + 1u] = float(back.material);
+  outputs[4u * index + 2u] = back.point.normal.z;
+  outputs[4u * index + 3u] = back.point.position.x;
+})",
+                                             ids, 4 * count, count);
+  for (uint32_t i = 0; i < count; ++i) {
+    EXPECT_EQ(out[4 * i], ids[2 * i]);
+    EXPECT_EQ(out[4 * i + 1], ids[2 * i + 1]);
+    EXPECT_NEAR(out[4 * i + 2], -0.8, 0.001);
+    EXPECT_NEAR(out[4 * i + 3], -3, 5.0 / 32768);
+  }
 }
 
 }  // namespace

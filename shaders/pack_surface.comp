@@ -1,0 +1,25 @@
+// What histories ask of each pixel, packed. See passes/pack_surface.cpp for the ports.
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "lib/basis.glsl"
+#include "lib/packed_surface.glsl"
+#include "lib/reference_point.glsl"
+
+uniform texture2D surface_position;
+uniform texture2D surface_normal;
+uniform utexture2D surface_id;
+uniform writeonly uimage2D out_point;
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, textureSize(surface_position, 0)))) return;
+  vec4 position = texelFetch(surface_position, pixel, 0);
+  uvec4 id = texelFetch(surface_id, pixel, 0);
+  vec3 normal = safe_normalize(texelFetch(surface_normal, pixel, 0).xyz, vec3(0.0, 0.0, 1.0));
+  PackedSurface surface = PackedSurface(id.x, id.y, SurfacePoint(normal, position.xyz - reference_point(0u)));
+  imageStore(out_point, pixel, position.w > 0.0 ? pack_surface(surface) : uvec4(0));
+}
