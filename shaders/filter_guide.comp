@@ -29,5 +29,6 @@ void main() {
   guide.point.position = position.xyz - reference_point(0u);
   guide.variance = variance_bound ? min(texelFetch(variance, pixel, 0).x, kUnknownVariance) : kUnknownVariance;
   guide.error = variance_bound && radiance_bound ? relative_error(pixel, guide.object) : kUnknownError;
-  imageStore(out_guide, pixel, position.w > 0.0 ? pack_guide(guide) : uvec4(0));
+  bool seen = position.w > 0.0 && is_finite(position.xyz);
+  imageStore(out_guide, pixel, seen ? pack_guide(guide) : uvec4(0));
 }

@@ -8,6 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/basis.glsl"
 #include "lib/packed_surface.glsl"
 #include "lib/reference_point.glsl"
+#include "lib/sampling.glsl"
 
 uniform texture2D surface_position;
 uniform texture2D surface_normal;
@@ -21,5 +22,6 @@ void main() {
   uvec4 id = texelFetch(surface_id, pixel, 0);
   vec3 normal = safe_normalize(texelFetch(surface_normal, pixel, 0).xyz, vec3(0.0, 0.0, 1.0));
   PackedSurface surface = PackedSurface(id.x, id.y, SurfacePoint(normal, position.xyz - reference_point(0u)));
-  imageStore(out_point, pixel, position.w > 0.0 ? pack_surface(surface) : uvec4(0));
+  bool seen = position.w > 0.0 && is_finite(position.xyz);
+  imageStore(out_point, pixel, seen ? pack_surface(surface) : uvec4(0));
 }

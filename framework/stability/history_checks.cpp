@@ -105,7 +105,20 @@ std::vector<Figure> measure_sums(Lab& lab) {
   return figures;
 }
 
-/// The graph that ships, with a pixel spoilt in one frame of what it remembers of where surfaces were: `part` of the
+/// The graph that ships, with histories that keep images of the G-buffer as they are: packed ones hold no NaN.
+std::string unpacked_trails(const std::string& text) {
+  nlohmann::ordered_json graph = nlohmann::ordered_json::parse(text);
+  for (auto& pass : graph["passes"]) {
+    if (pass["type"] != "temporal_accumulate_packed") continue;
+    pass["type"] = "temporal_accumulate";
+    pass["in"].erase("trail_point");
+    for (const char* part : {"position", "normal", "id"})
+      pass["in"]["trail_" + std::string(part)] = "trace_surface.surface." + std::string(part) + "@1..9";
+  }
+  return graph.dump();
+}
+
+/// Such a graph, with a pixel spoilt in one frame of what it remembers of where surfaces were: `part` of the
 /// G-buffer on its way to histories alone.
 std::string spoilt_trail(const std::string& text, const std::string& part, bool infinite) {
   nlohmann::ordered_json graph = nlohmann::ordered_json::parse(text);
@@ -127,7 +140,7 @@ std::string spoilt_trail(const std::string& text, const std::string& part, bool 
 
 std::vector<Figure> measure_trails(Lab& lab) {
   const scene::Scene scene = room_of_all_lights();
-  const std::string text = lab.shipped_graph("lightloom");
+  const std::string text = unpacked_trails(lab.shipped_graph("lightloom"));
   RunOptions options;
   options.frames = kTrailFrame + 11;
   options.link.view = options.link.trace = {32, 24};
