@@ -58,9 +58,9 @@ vec3 weights_along(ivec2 pixel, ivec2 size, Corners corners) {
 
 // Change of the texture coordinates from one point of the triangle's plane to another.
 vec4 texcoord_change(Triangle t, vec3 from, vec3 to) {
-  if (!is_finite(from) || !is_finite(to)) return vec4(kLargestGradient);
-  vec4 uv = interpolate_texcoords(t, to) - interpolate_texcoords(t, from);
-  return clamp(uv, vec4(-kLargestGradient), vec4(kLargestGradient));
+  vec4 change = interpolate_texcoords(t, to) - interpolate_texcoords(t, from);
+  if (!is_finite(change.xyz) || !is_finite(change.w)) return vec4(kLargestGradient);
+  return clamp(change, vec4(-kLargestGradient), vec4(kLargestGradient));
 }
 
 Surface surface_at(ivec2 pixel, ivec2 size, uint index) {
