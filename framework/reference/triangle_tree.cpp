@@ -85,10 +85,10 @@ void set_ray(RTCRay& target, const Ray& ray, float distance) {
 
 struct TriangleTree::State {
   struct DeviceRelease {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCDevice held) const { rtcReleaseDevice(held); }
   };
   struct SceneRelease {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    void operator()(RTCScene held) const { rtcReleaseScene(held); }
   };
   using Device = std::unique_ptr<RTCDeviceTy, DeviceRelease>;
   using Scene = std::unique_ptr<RTCSceneTy, SceneRelease>;
