@@ -3,11 +3,9 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
 
-#include "lib/basis.glsl"
 #include "lib/filter_guide.glsl"
 #include "lib/reference_point.glsl"
 #include "lib/relative_error.glsl"
-#include "lib/scene.glsl"
 #include "lib/variance.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -25,8 +23,7 @@ void main() {
   vec4 position = texelFetch(surface_position, pixel, 0);
   Guide guide;
   guide.object = texelFetch(surface_id, pixel, 0).x;
-  guide.point.normal = safe_normalize(texelFetch(surface_normal, pixel, 0).xyz, vec3(0.0, 0.0, 1.0));
-  guide.point.position = position.xyz - reference_point(0u);
+  guide.point = point_to_pack(position.xyz, texelFetch(surface_normal, pixel, 0).xyz);
   guide.variance = variance_bound ? min(texelFetch(variance, pixel, 0).x, kUnknownVariance) : kUnknownVariance;
   guide.error = variance_bound && radiance_bound ? relative_error(pixel, guide.object) : kUnknownError;
   bool seen = position.w > 0.0 && is_finite(position.xyz);

@@ -5,7 +5,6 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#include "lib/basis.glsl"
 #include "lib/packed_surface.glsl"
 #include "lib/reference_point.glsl"
 #include "lib/sampling.glsl"
@@ -20,8 +19,8 @@ void main() {
   if (any(greaterThanEqual(pixel, textureSize(surface_position, 0)))) return;
   vec4 position = texelFetch(surface_position, pixel, 0);
   uvec4 id = texelFetch(surface_id, pixel, 0);
-  vec3 normal = safe_normalize(texelFetch(surface_normal, pixel, 0).xyz, vec3(0.0, 0.0, 1.0));
-  PackedSurface surface = PackedSurface(id.x, id.y, SurfacePoint(normal, position.xyz - reference_point(0u)));
+  vec3 normal = texelFetch(surface_normal, pixel, 0).xyz;
+  PackedSurface surface = PackedSurface(id.x, id.y, point_to_pack(position.xyz, normal));
   bool seen = position.w > 0.0 && is_finite(position.xyz);
   imageStore(out_point, pixel, seen ? pack_surface(surface) : uvec4(0));
 }
