@@ -135,15 +135,19 @@ void main() {
 TEST_F(LostDevice, OnAFullDiskBothAreSaid) {
   ASSERT_EQ(render("", "count", 2), 0) << err_;
   const std::string last = std::to_string(calls_["vkWaitForFences"]);
-  // The plan, and the two pictures of the first frame: the last of these cannot get its name.
+  // The plan, and the two pictures of the first frame: the last of these cannot get its name. It is tried when the
+  // device is lost already, else the run would end for the disk alone.
+  const std::string mark = (folder_ / "device_is_lost").string();
   const std::map<std::string, std::string> files{{"LD_PRELOAD", LIGHTLOOM_FILE_FAULTS},
                                                  {"LIGHTLOOM_FILE_PREFIX", (folder_ / "lost").string()},
                                                  {"LIGHTLOOM_FILE_CALL", "rename"},
                                                  {"LIGHTLOOM_FILE_NTH", "3"},
                                                  {"LIGHTLOOM_FILE_ERRNO", std::to_string(ENOSPC)},
+                                                 {"LIGHTLOOM_FILE_HOLD", mark},
                                                  {"LIGHTLOOM_FILE_STAYS", "1"}};
   for (const auto& [name, value] : files) setenv(name.c_str(), value.c_str(), 1);
-  const int status = render_apart("fail=vkWaitForFences:" + last + ":VK_ERROR_DEVICE_LOST", arguments("lost", 2));
+  const int status =
+      render_apart("mark=" + mark + ";fail=vkWaitForFences:" + last + ":VK_ERROR_DEVICE_LOST", arguments("lost", 2));
   for (const auto& [name, value] : files) unsetenv(name.c_str());
   EXPECT_EQ(status, 1);
   EXPECT_THAT(err_, AllOf(HasSubstr("VK_ERROR_DEVICE_LOST; the frames before are not all written either: "),

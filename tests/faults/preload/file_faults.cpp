@@ -5,6 +5,7 @@
 //   LIGHTLOOM_FILE_ERRNO    its reason
 //   LIGHTLOOM_FILE_STAYS    1: all later calls fail as well, as on a disk that is full
 //   LIGHTLOOM_FILE_REMOVE   a folder that is removed before that call, which then goes on
+//   LIGHTLOOM_FILE_HOLD     a file: the call that fails waits until it is there, for a minute at most
 //   LIGHTLOOM_FILE_LOG      gets "COUNT STRUCK\n" at the end
 //   LIGHTLOOM_CLOCK         seconds that the clock of the day jumps at each look at it
 // Only what this program calls is covered: 64-bit Linux, glibc, open with and without 64.
@@ -45,6 +46,7 @@ struct Faults {
   std::string prefix = text_of("LIGHTLOOM_FILE_PREFIX");
   std::string call = text_of("LIGHTLOOM_FILE_CALL");
   std::string remove = text_of("LIGHTLOOM_FILE_REMOVE");
+  std::string hold = text_of("LIGHTLOOM_FILE_HOLD");
   std::string log = text_of("LIGHTLOOM_FILE_LOG");
   long nth = std::atol(text_of("LIGHTLOOM_FILE_NTH"));
   int cause = std::atoi(text_of("LIGHTLOOM_FILE_ERRNO"));
@@ -75,6 +77,12 @@ struct Faults {
     if (descriptor >= 0 && descriptor < kDescriptors) watched[static_cast<size_t>(descriptor)] = yes;
   }
 
+  void wait_until_released() const {
+    constexpr int kTries = 6000;
+    if (hold.empty()) return;
+    for (int i = 0; i < kTries && access(hold.c_str(), F_OK) != 0; ++i) usleep(10'000);
+  }
+
   /// Does this call fail? errno is set then.
   template <typename Place>
   bool strike(const char* name, Place place) {
@@ -82,6 +90,7 @@ struct Faults {
     const long number = ++calls;
     if (nth == 0 || number < nth || (number > nth && !stays)) return false;
     ++struck;
+    wait_until_released();
     if (!remove.empty()) {
       std::error_code ignored;
       std::filesystem::remove_all(remove, ignored);

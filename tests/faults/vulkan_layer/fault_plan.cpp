@@ -68,6 +68,8 @@ Faults parse_faults(const std::string& text) {
       faults.discrete = true;
     else if (key == "hide")
       faults.hidden.insert(value);
+    else if (key == "mark")
+      faults.mark = value;
     else if (key == "log")
       faults.log = value;
     else
@@ -99,6 +101,7 @@ std::optional<VkResult> FaultPlan::on_call(const std::string& function) {
       milliseconds += rule.milliseconds;
       if (rule.result != VK_SUCCESS) failure = rule.result;
     }
+    if (failure && !faults_.mark.empty()) std::ofstream(faults_.mark) << function << '\n';
   }
   if (milliseconds > 0) std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
   return failure;

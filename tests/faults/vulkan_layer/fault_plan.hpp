@@ -20,6 +20,7 @@ namespace lightloom::faults {
 /// - api=1.2: version that devices tell
 /// - type=discrete: type of device that devices tell, instead of CPU
 /// - hide=FEATURE: feature that devices do not have
+/// - mark=FILE: is made when a failure takes place, so that another part of the test can wait for that
 /// - log=FILE: one line for each counted function, "FUNCTION calls", for the bytes that pipeline caches began with,
 ///   "pipeline_cache_bytes bytes", and for each entry that struck, "struck ENTRY"; written when the instance goes
 struct CallRule {
@@ -37,6 +38,7 @@ struct Faults {
   std::optional<uint32_t> api_version;
   bool discrete = false;
   std::set<std::string> hidden;
+  std::string mark;
   std::string log;
 };
 
