@@ -6,23 +6,27 @@ namespace lightloom::passes {
 namespace {
 
 Port boxes_output() {
-  Port port = image_output_like(
-      "boxes", Format::rgba32_uint, "distance",
-      "for each sign of a direction, the edges of an empty box [voxels, at most 31] with this voxel in its near "
-      "corner: "
-      "5 bits each, x lowest; all 0 in an occupied voxel. Channels: +y +z, -y +z, +y -z, -y -z; low half +x, high -x");
+  Port port = many_times(
+      kBoxBlocks,
+      image_output_like(
+          "boxes", Format::r32_uint, "distance",
+          "edges of an empty box [voxels, at most 31] with this voxel in its near corner: 5 bits each, x lowest; all 0 "
+          "in an occupied voxel. Low half: for directions that rise along x, high half: fall. The voxels for those "
+          "that fall along y or z are a grid further along y or z"));
   port.dimension = Dimension::d3;
   port.access = Access::compute_storage_read_write;
   port.exact_format = "it holds packed whole numbers";
   return port;
 }
 
-/// One thread for each row of voxels along the axis.
+/// One thread for each row of voxels along the axis and for each sign of y and z.
 void record(PassContext& context) {
-  const Extent3 grid = context.output_extent("boxes");
-  context.dispatch({"empty_boxes.comp", {grid.height, grid.depth, 1}, {{"axis", 0}}});
-  context.dispatch({"empty_boxes.comp", {grid.width, grid.depth, 1}, {{"axis", 1}}});
-  context.dispatch({"empty_boxes.comp", {grid.width, grid.height, 1}, {{"axis", 2}}});
+  constexpr uint32_t kSigns = 4;
+  const Extent3 boxes = context.output_extent("boxes");
+  const Extent3 grid{boxes.width / kBoxBlocks.width, boxes.height / kBoxBlocks.height, boxes.depth / kBoxBlocks.depth};
+  context.dispatch({"empty_boxes.comp", {grid.height, grid.depth, kSigns}, {{"axis", 0}}});
+  context.dispatch({"empty_boxes.comp", {grid.width, grid.depth, kSigns}, {{"axis", 1}}});
+  context.dispatch({"empty_boxes.comp", {grid.width, grid.height, kSigns}, {{"axis", 2}}});
 }
 
 }  // namespace

@@ -39,24 +39,20 @@ Port motion_output() {
 // Which triangle each pixel shows: what is hidden costs a depth test, and the surface is computed once a pixel.
 void draw_visibility(PassContext& context) {
   context.clear("visibility", {0, 0, 0, 0});
-  const TriangleRange fixed = context.static_triangles();
-  // Dynamic triangles follow the static ones in the buffer.
   Draw draw{.vertex_shader = "gather.vert",
             .fragment_shader = "gather.frag",
-            .first_triangle = fixed.first,
-            .triangle_count = fixed.count + context.dynamic_triangles().count,
+            .triangles = context.triangles(TriangleKind::opaque),
             .depth_port = "depth",
             .area = {},
             .values = {},
             .keep_depth = false};
-  if (draw.triangle_count == 0) return;
-  context.draw(draw);
-  if (!context.scene_has("alpha")) return;
+  if (!draw.triangles.empty()) context.draw(draw);
   // A shader that discards is run before the depth test, so what has no holes does not come this way.
+  draw.keep_depth = !draw.triangles.empty();
+  draw.triangles = context.triangles(TriangleKind::masked);
   draw.vertex_shader = "gather_masked.vert";
   draw.fragment_shader = "gather_masked.frag";
-  draw.keep_depth = true;
-  context.draw(draw);
+  if (!draw.triangles.empty()) context.draw(draw);
 }
 
 void record(PassContext& context) {

@@ -58,6 +58,12 @@ inline Port same_size_as(std::string like, Port port) {
   return port;
 }
 
+/// The same port, so often as large along each axis as what it is like.
+inline Port many_times(const Extent3& times, Port port) {
+  port.times = times;
+  return port;
+}
+
 /// A 2D output as large as the input `like`.
 inline Port image_output_like(std::string name, Format format, std::string like, std::string doc) {
   Port port;

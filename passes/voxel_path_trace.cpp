@@ -1,6 +1,7 @@
 #include "passes/voxel_path_trace.hpp"
 
 #include "framework/base/error.hpp"
+#include "passes/empty_boxes.hpp"
 #include "passes/path_trace_rows.hpp"
 #include "passes/port_rows.hpp"
 
@@ -15,8 +16,9 @@ Port optional_image(std::string name, Format format, std::string doc) {
 }
 
 Port boxes_input() {
-  Port port = same_size_as(
-      "distance", optional_image("boxes", Format::rgba32_uint, "empty_boxes.boxes; what `march` box_exit steps by"));
+  Port port = many_times(kBoxBlocks,
+                         same_size_as("distance", optional_image("boxes", Format::r32_uint,
+                                                                 "empty_boxes.boxes; what `march` box_exit steps by")));
   port.dimension = Dimension::d3;
   port.needed_with = [](const ParamSet& params) { return params.choice("march") == "box_exit"; };
   return port;

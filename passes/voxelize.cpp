@@ -83,8 +83,7 @@ void claim_raster(PassContext& context, const TriangleRange& range, const Extent
   context.draw(
       {"voxelize_raster.vert",
        "voxelize_raster.frag",
-       range.first,
-       range.count,
+       {range},
        "",
        {columns, columns, 1},
        {{"grid_width", grid.width}, {"grid_height", grid.height}, {"grid_depth", grid.depth}, {"columns", columns}}});

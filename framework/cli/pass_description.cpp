@@ -176,7 +176,8 @@ std::string extent_text(const Port& port) {
     case ExtentRule::like:
       break;
   }
-  return "as large as " + port.like;
+  if (port.times == Extent3{}) return "as large as " + port.like;
+  return to_string(port.times) + " times as large as " + port.like;
 }
 
 std::string allowed_text(const Param& param) {

@@ -19,6 +19,11 @@ Extent3 wanted_size(const SizeSpec& own, const std::optional<std::pair<uint32_t,
   return {own.width, own.height, 1};
 }
 
+std::optional<Extent3> multiplied(const std::optional<Extent3>& extent, const Extent3& times) {
+  if (!extent) return std::nullopt;
+  return Extent3{extent->width * times.width, extent->height * times.height, extent->depth * times.depth};
+}
+
 }  // namespace
 
 ShapeResolver::ShapeResolver(const Nodes& nodes, const Wiring& wiring, EdgeResolver& edges, const Input& input,
@@ -32,14 +37,14 @@ ShapeResolver::ShapeResolver(const Nodes& nodes, const Wiring& wiring, EdgeResol
       trace_(wanted_size(input.spec.trace, input.options.trace, "--trace-size", report)) {}
 
 std::optional<Extent3> ShapeResolver::extent_of(const ImageRef& image) {
-  std::vector<ImageRef> alike;  // each has the size of the next, so that all have that of the end
+  std::vector<std::pair<ImageRef, Extent3>> alike;  // each has so often the size of the next
   Rule rule{std::nullopt, image};
   while (rule.like) {
     const ImageRef port{rule.like->node, rule.like->port, 0};
     const auto [known, is_new] = known_.try_emplace(port);
     if (is_new) {
-      alike.push_back(port);
       rule = rule_of(port.node, *port.port);
+      alike.emplace_back(port, rule.times);
       continue;
     }
     if (known->second.in_progress)
@@ -48,8 +53,12 @@ std::optional<Extent3> ShapeResolver::extent_of(const ImageRef& image) {
                     "give a pass of this loop an input of known size");
     rule = {known->second.extent, std::nullopt};
   }
-  for (const ImageRef& port : alike) known_[port] = {false, rule.extent};
-  return rule.extent;
+  std::optional<Extent3> extent = rule.extent;
+  for (auto at = alike.rbegin(); at != alike.rend(); ++at) {
+    extent = multiplied(extent, at->second);
+    known_[at->first] = {false, extent};
+  }
+  return extent;
 }
 
 Extent3 ShapeResolver::grid(const Node& node) const {
@@ -87,8 +96,8 @@ ShapeResolver::Rule ShapeResolver::like_input(uint32_t index, const Port& port) 
   const Node& node = nodes_.list[index];
   const Port& like = *node.type->find_port(port.like, Direction::in);
   const ResolvedInput model = input_of(index, like);
-  if (model.state == Connection::connected) return {std::nullopt, model.sources.front().image};
-  if (like.optional && model.state != Connection::broken) return {view_, std::nullopt};
+  if (model.state == Connection::connected) return {std::nullopt, model.sources.front().image, port.times};
+  if (like.optional && model.state != Connection::broken) return {multiplied(view_, port.times), std::nullopt};
   // An enabled pass's missing or broken input has been reported as such.
   if (!node.enabled() && model.state != Connection::broken)
     report_.error("unknown-shape", node.spec->where,
@@ -104,14 +113,15 @@ void ShapeResolver::check_inputs(uint32_t index, const std::vector<ResolvedInput
     if (input.state != Connection::connected || input.port->extent == ExtentRule::any) continue;
     const std::optional<Extent3> given = extent_of(input.sources.front().image);
     const Rule rule = rule_of(index, *input.port);
-    const std::optional<Extent3> wanted = rule.like ? extent_of(*rule.like) : rule.extent;
+    const std::optional<Extent3> wanted = rule.like ? multiplied(extent_of(*rule.like), rule.times) : rule.extent;
     if (!given || !wanted || *given == *wanted) continue;
     std::string model;
     if (input.port->extent == ExtentRule::like) {
       const auto other = std::find_if(inputs.begin(), inputs.end(), [&](const ResolvedInput& candidate) {
         return candidate.port->name == input.port->like;
       });
-      model = "that of input '" + input.port->like + "', which is " + image_name(nodes_, other->sources.front().image);
+      model = (input.port->times == Extent3{} ? "that" : to_string(input.port->times) + " times that") + " of input '" +
+              input.port->like + "', which is " + image_name(nodes_, other->sources.front().image);
     } else {
       model = input.port->extent == ExtentRule::view    ? "the view's"
               : input.port->extent == ExtentRule::trace ? "the trace's"

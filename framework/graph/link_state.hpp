@@ -223,6 +223,7 @@ class ShapeResolver {
   struct Rule {
     std::optional<Extent3> extent;
     std::optional<ImageRef> like;
+    Extent3 times = {};  ///< how often as large as that one
   };
   [[nodiscard]] Rule rule_of(uint32_t node, const Port& port);
   [[nodiscard]] Rule like_input(uint32_t node, const Port& port);

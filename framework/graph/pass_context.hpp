@@ -35,23 +35,26 @@ struct Dispatch {
   std::vector<ShaderValue> values;
 };
 
-/// A draw of scene triangles by vertex pulling: gl_VertexIndex / 3 counts from `first_triangle`.
+struct TriangleRange {
+  uint32_t first = 0;
+  uint32_t count = 0;
+  bool operator==(const TriangleRange&) const = default;
+};
+
+/// Does the triangle's material have holes, by the alpha of its texture?
+enum class TriangleKind : uint8_t { opaque, masked };
+
+/// A draw of scene triangles by vertex pulling: gl_VertexIndex / 3 is the index of the triangle.
 struct Draw {
   std::string vertex_shader;
   std::string fragment_shader;
-  uint32_t first_triangle = 0;
-  uint32_t triangle_count = 0;
+  std::vector<TriangleRange> triangles;
   /// Fragment outputs are named `out_<port>_<part>` after the output port whose parts are the attachments. A fragment
   /// shader without outputs only stores to images.
   std::string depth_port;  ///< scratch port, d32_sfloat; cleared to 1, less-or-equal test; empty: no depth test
   Extent3 area;            ///< viewport [pixels] without a depth port; else the depth port's extent is taken
   std::vector<ShaderValue> values;
   bool keep_depth = false;  ///< go on with the depth of an earlier draw of this pass instead of clearing it
-};
-
-struct TriangleRange {
-  uint32_t first = 0;
-  uint32_t count = 0;
 };
 
 /// Voxels from `low` to `high`, both ends included.
@@ -73,9 +76,9 @@ class PassContext {
   [[nodiscard]] virtual bool connected(std::string_view input_port) const = 0;
   [[nodiscard]] virtual TriangleRange static_triangles() const = 0;
   [[nodiscard]] virtual TriangleRange dynamic_triangles() const = 0;
-  /// Has the scene what the shaders' constant `has_<feature>` tells of (shaders/lib/features.glsl)? Throws Error for a
-  /// feature that there is not.
-  [[nodiscard]] virtual bool scene_has(std::string_view feature) const = 0;
+  /// Disjoint ranges, in order, that hold all triangles of this kind, static and dynamic, and some of the other where
+  /// the two take turns too often. Empty if there are none of this kind.
+  [[nodiscard]] virtual std::vector<TriangleRange> triangles(TriangleKind kind) const = 0;
   /// Does a persistent port still hold what this pass left in it in the frame before? If not (the first frame, a
   /// history of the value is kept), all of it must be written.
   [[nodiscard]] virtual bool kept(std::string_view port) const = 0;

@@ -85,6 +85,9 @@ class TableCheck {
     require(port.extent != ExtentRule::any || port.direction == Direction::in, which + "needs a rule for its extent");
     require((port.extent == ExtentRule::like) != port.like.empty(),
             which + "must name a port exactly if it is `like` it");
+    require(port.extent == ExtentRule::like || port.times == Extent3{},
+            which + "is so many times as large as nothing: only what is `like` a port can be");
+    require(port.times.width >= 1 && port.times.height >= 1 && port.times.depth >= 1, which + "has no size");
     if (port.extent != ExtentRule::like) return;
     const Port* model = type_.find_port(port.like, Direction::in);
     require(model != nullptr && model != &port, which + "is like '" + port.like + "', which is no other input");

@@ -41,6 +41,7 @@ struct Port {
   Dimension dimension = Dimension::d2;
   ExtentRule extent = ExtentRule::any;
   std::string like;      ///< with ExtentRule::like: the input port whose extent this port has
+  Extent3 times;         ///< with ExtentRule::like: how often as large along each axis
   Extent3 fixed_extent;  ///< with ExtentRule::fixed
   Access access = Access::none;
   bool optional = false;  ///< inputs: may be left unconnected

@@ -52,13 +52,6 @@ bool PassRecorder::connected(std::string_view input_port) const {
   return std::any_of(pass_.inputs.begin(), pass_.inputs.end(), [&](const Use& use) { return use.port == input_port; });
 }
 
-bool PassRecorder::scene_has(std::string_view feature) const {
-  const std::string name = "has_" + std::string(feature);
-  for (const ShaderValue& value : environment_.scene->values)
-    if (const bool* has = std::get_if<bool>(&value.value); has != nullptr && value.name == name) return *has;
-  fail(pass_, "asks whether the scene has '" + std::string(feature) + "', which is no feature of scenes");
-}
-
 bool PassRecorder::kept(std::string_view port) const {
   const auto persistent = std::find_if(pass_.type->ports.begin(), pass_.type->ports.end(), [&](const Port& candidate) {
     return candidate.persistent && candidate.name == port && candidate.direction != Direction::in;
@@ -194,7 +187,8 @@ void PassRecorder::draw(const Draw& draw) {
   gpu::begin_rendering(environment_.commands, {extent.width, extent.height}, colors, depth);
   pipeline.bind(environment_.commands, bind_resources(pipeline),
                 gpu::encode_push_constants(pipeline.reflection(), values));
-  vkCmdDraw(environment_.commands, draw.triangle_count * 3, 1, draw.first_triangle * 3, 0);
+  for (const TriangleRange& range : draw.triangles)
+    vkCmdDraw(environment_.commands, range.count * 3, 1, range.first * 3, 0);
   vkCmdEndRendering(environment_.commands);
 }
 

@@ -40,7 +40,9 @@ class PassRecorder final : public PassContext {
   [[nodiscard]] bool connected(std::string_view input_port) const override;
   [[nodiscard]] TriangleRange static_triangles() const override { return environment_.scene->static_triangles; }
   [[nodiscard]] TriangleRange dynamic_triangles() const override { return environment_.scene->dynamic_triangles; }
-  [[nodiscard]] bool scene_has(std::string_view feature) const override;
+  [[nodiscard]] std::vector<TriangleRange> triangles(TriangleKind kind) const override {
+    return kind == TriangleKind::masked ? environment_.scene->masked_triangles : environment_.scene->opaque_triangles;
+  }
   [[nodiscard]] bool kept(std::string_view port) const override;
   [[nodiscard]] bool wanted(std::string_view output_port) const override;
   [[nodiscard]] std::vector<VoxelBox> moved_boxes(const Extent3& grid) const override;

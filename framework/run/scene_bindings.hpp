@@ -14,6 +14,8 @@ struct SceneBindings {
   std::vector<ShaderValue> values;  ///< `has_<feature>`, and which textures there are (shaders/lib/features.glsl)
   TriangleRange static_triangles;
   TriangleRange dynamic_triangles;
+  std::vector<TriangleRange> opaque_triangles;  ///< PassContext::triangles
+  std::vector<TriangleRange> masked_triangles;
   scene::Bounds bounds;              ///< of the scene, over all frames [m]
   std::vector<scene::Bounds> moved;  ///< MovingObjects::moved of this frame [m]
 };

@@ -51,9 +51,9 @@ constexpr std::array kLightMembers = {
 constexpr std::string_view kFrameBlock = "FrameBlock";
 constexpr std::string_view kLightBlock = "LightBlock";
 /// Beside `has_` and the name of a feature.
-constexpr std::array<std::string_view, 5> kTextureConstants = {"uses_metallic_roughness_texture",
-                                                               "uses_emissive_texture", "uses_anisotropy_texture",
-                                                               "uses_specular_texture", "texture_page_count"};
+constexpr std::array<std::string_view, 7> kTextureConstants = {
+    "base_color_pages", "metallic_roughness_pages", "normal_pages",        "emissive_pages",
+    "anisotropy_pages", "specular_pages",           "specular_color_pages"};
 
 template <size_t N>
 const ReadRow* find_row(const std::array<ReadRow, N>& rows, std::string_view name) {

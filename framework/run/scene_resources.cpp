@@ -7,6 +7,7 @@
 
 #include "framework/base/error.hpp"
 #include "framework/gpu/transfer.hpp"
+#include "framework/run/triangle_ranges.hpp"
 #include "framework/scene/color.hpp"
 #include "framework/scene/environment_sampler.hpp"
 #include "framework/scene/gpu_material.hpp"
@@ -50,26 +51,31 @@ gpu::Buffer uniform_buffer(gpu::Device& device, VkDeviceSize size, const char* n
   return {device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryKind::device, name};
 }
 
-/// Which textures the materials have, as shaders/lib/features.glsl names them.
-std::vector<ShaderValue> texture_values(const std::vector<scene::Material>& materials, uint32_t page_count) {
-  const auto any = [&](auto member) {
-    return std::any_of(materials.begin(), materials.end(),
-                       [&](const scene::Material& material) { return (material.*member).image >= 0; });
+/// Draws are cheap beside thousands of triangles, and a scene may have as many objects.
+constexpr size_t kRangesOfAKind = 64;
+
+/// The pages of each kind of texture, a bit for each, as shaders/lib/features.glsl names them.
+std::vector<ShaderValue> texture_values(const std::vector<scene::GpuMaterial>& materials) {
+  const auto pages = [&](const scene::GpuTextureSlot scene::GpuMaterial::*kind) {
+    uint32_t bits = 0;
+    for (const scene::GpuMaterial& material : materials)
+      if (const uint32_t page = (material.*kind).page; page < scene::kTexturePageCount) bits |= 1U << page;
+    return bits;
   };
-  return {{"uses_metallic_roughness_texture", any(&scene::Material::metallic_roughness_texture)},
-          {"uses_emissive_texture", any(&scene::Material::emissive_texture)},
-          {"uses_anisotropy_texture", any(&scene::Material::anisotropy_texture)},
-          {"uses_specular_texture",
-           any(&scene::Material::specular_texture) || any(&scene::Material::specular_color_texture)},
-          {"texture_page_count", page_count}};
+  return {{"base_color_pages", pages(&scene::GpuMaterial::base_color_texture)},
+          {"metallic_roughness_pages", pages(&scene::GpuMaterial::metallic_roughness_texture)},
+          {"normal_pages", pages(&scene::GpuMaterial::normal_texture)},
+          {"emissive_pages", pages(&scene::GpuMaterial::emissive_texture)},
+          {"anisotropy_pages", pages(&scene::GpuMaterial::anisotropy_texture)},
+          {"specular_pages", pages(&scene::GpuMaterial::specular_texture)},
+          {"specular_color_pages", pages(&scene::GpuMaterial::specular_color_texture)}};
 }
 
-std::vector<ShaderValue> any_texture_values(uint32_t page_count) {
-  return {{"uses_metallic_roughness_texture", true},
-          {"uses_emissive_texture", true},
-          {"uses_anisotropy_texture", true},
-          {"uses_specular_texture", true},
-          {"texture_page_count", page_count}};
+/// As if every page had textures of every kind.
+std::vector<ShaderValue> any_texture_values() {
+  std::vector<ShaderValue> values = texture_values({});
+  for (ShaderValue& value : values) value.value = (1U << scene::kTexturePageCount) - 1;
+  return values;
 }
 
 gpu::Image upload_page(gpu::Device& device, const scene::TexturePage& page) {
@@ -168,10 +174,10 @@ void SceneResources::upload_materials(gpu::Device& device) {
   const scene::TexturePages pages = scene::build_texture_pages(scene_);
   warnings_ = pages.warnings;
   for (const scene::TexturePage& page : pages.pages) texture_pages_.push_back(upload_page(device, page));
-  used_page_count_ = static_cast<uint32_t>(texture_pages_.size());
   const scene::TexturePage white{.width = 1, .height = 1, .srgb = false, .images = {0}, .mips = {{255, 255, 255, 255}}};
   while (texture_pages_.size() < scene::kTexturePageCount) texture_pages_.push_back(upload_page(device, white));
   const std::vector<scene::GpuMaterial> packed = scene::pack_materials(scene_, pages, emission_);
+  texture_values_ = options_.general ? any_texture_values() : texture_values(packed);
   materials_.push_back(storage_buffer(device, packed.size() * sizeof(scene::GpuMaterial), "materials"));
   gpu::upload_buffer(device, materials_.front(), bytes_of(packed));
 }
@@ -212,12 +218,15 @@ void SceneResources::bind() {
   resources.emplace("environment_table", gpu::resource(environment_.back(), samplers_.clamp_linear()));
   for (const auto& [name, present] : scene_.features.named())
     bindings_.values.push_back({"has_" + name, present || options_.general});
-  const std::vector<ShaderValue> textures = options_.general
-                                                ? any_texture_values(static_cast<uint32_t>(texture_pages_.size()))
-                                                : texture_values(scene_.materials, used_page_count_);
-  bindings_.values.insert(bindings_.values.end(), textures.begin(), textures.end());
+  bindings_.values.insert(bindings_.values.end(), texture_values_.begin(), texture_values_.end());
   bindings_.static_triangles = range(0, scene_.static_triangle_count);
   bindings_.dynamic_triangles = range(scene_.static_triangle_count, scene_.triangles.size());
+  const auto is_masked = [this](uint32_t triangle) {
+    return scene_.materials[scene_.triangles[triangle].material].alpha_mode == scene::AlphaMode::mask;
+  };
+  const auto triangles = static_cast<uint32_t>(scene_.triangles.size());
+  bindings_.masked_triangles = ranges_of(triangles, is_masked, kRangesOfAKind);
+  bindings_.opaque_triangles = ranges_of(triangles, std::not_fn(is_masked), kRangesOfAKind);
   bindings_.bounds = scene_.bounds;
 }
 

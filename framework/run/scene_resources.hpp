@@ -79,7 +79,7 @@ class SceneResources {
   gpu::Buffer staging_;                    ///< FrameBlock, LightBlock, the dynamic vertices, their positions
   std::vector<gpu::Buffer> materials_;     ///< one
   std::vector<gpu::Image> texture_pages_;  ///< as many as shaders declare; white beyond those in use
-  uint32_t used_page_count_ = 0;
+  std::vector<ShaderValue> texture_values_;
   std::vector<gpu::Image> environment_;  ///< the image, and the table by which its light is sampled
   std::optional<SceneAccelerator> accelerator_;
   SceneBindings bindings_;

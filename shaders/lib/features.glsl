@@ -15,11 +15,14 @@ layout(constant_id = 109) const bool has_specular = true;
 layout(constant_id = 110) const bool has_anisotropic = true;
 layout(constant_id = 111) const bool has_metallic = true;
 
-// Which textures its materials have, and on how many pages (textures.glsl).
-layout(constant_id = 120) const bool uses_metallic_roughness_texture = true;
-layout(constant_id = 121) const bool uses_emissive_texture = true;
-layout(constant_id = 122) const bool uses_anisotropy_texture = true;
-layout(constant_id = 123) const bool uses_specular_texture = true;
-layout(constant_id = 124) const uint texture_page_count = 12u;
+// The pages on which its materials have their textures of each kind, a bit for each (textures.glsl); 0: no material has
+// one.
+layout(constant_id = 120) const uint base_color_pages = 0xfffu;
+layout(constant_id = 121) const uint metallic_roughness_pages = 0xfffu;
+layout(constant_id = 122) const uint normal_pages = 0xfffu;
+layout(constant_id = 123) const uint emissive_pages = 0xfffu;
+layout(constant_id = 124) const uint anisotropy_pages = 0xfffu;
+layout(constant_id = 125) const uint specular_pages = 0xfffu;
+layout(constant_id = 126) const uint specular_color_pages = 0xfffu;
 
 #endif

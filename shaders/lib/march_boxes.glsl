@@ -21,11 +21,13 @@ MarchHit march_boxes(ivec3 size, vec3 origin, vec3 direction, float end) {
   bvec3 falling = not(forward);
   vec3 way = mix(vec3(-1.0), vec3(1.0), forward);
   vec3 far_side = mix(vec3(1.0), vec3(0.0), forward);
+  vec3 block = vec3(box_block(size, falling));
+  int shift = box_shift(falling.x);
   int limit = size.x + size.y + size.z + 8;
   bool found = false;
   for (int step_count = 0; step_count < limit; ++step_count) {
     ++steps_marched;
-    uint code = box_ahead(texelFetch(boxes, ivec3(voxel), 0), falling);
+    uint code = box_of(texelFetch(boxes, ivec3(voxel + block), 0).r, shift);
     found = code == 0u;
     if (found) break;
     vec3 edges = vec3(unpack_box(code));

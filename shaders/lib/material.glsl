@@ -24,7 +24,7 @@ const float kWardAlphaMin = 1e-3;
 // Opacity alone: what an alpha test needs.
 float material_alpha(uint id, TexturePoint point, vec4 vertex_color) {
   return materials[id].base_color.a * vertex_color.a *
-         sample_texture(true, materials[id].base_color_texture, point, vec4(1.0)).a;
+         sample_texture(base_color_pages, materials[id].base_color_texture, point, vec4(1.0)).a;
 }
 
 bool alpha_masked(uint id) { return has_alpha && materials[id].flags.x == kAlphaMask; }
@@ -34,7 +34,7 @@ bool cut_out(uint id, float alpha) { return alpha_masked(id) && alpha < material
 vec3 material_normal(uint id, TexturePoint point) {
   if (!has_normal_mapped || materials[id].normal_texture.page == kNoTexture) return vec3(0.0, 0.0, 1.0);
   const vec4 flat_normal = vec4(0.5, 0.5, 1.0, 1.0);
-  vec3 n = sample_texture(has_normal_mapped, materials[id].normal_texture, point, flat_normal).xyz * 2.0 - 1.0;
+  vec3 n = sample_texture(normal_pages, materials[id].normal_texture, point, flat_normal).xyz * 2.0 - 1.0;
   n.xy *= materials[id].surface.w;
   float squared = dot(n, n);
   return squared > 1e-8 ? n * inversesqrt(squared) : vec3(0.0, 0.0, 1.0);
@@ -47,7 +47,7 @@ void material_lobe(uint id, TexturePoint point, float roughness, out vec2 ward_a
   direction = vec2(1.0, 0.0);
   if (has_anisotropic && materials[id].specular.w > 0.0) {
     const vec4 along_tangent = vec4(1.0, 0.5, 1.0, 1.0);
-    vec3 texel = sample_texture(uses_anisotropy_texture, materials[id].anisotropy_texture, point, along_tangent).xyz;
+    vec3 texel = sample_texture(anisotropy_pages, materials[id].anisotropy_texture, point, along_tangent).xyz;
     vec2 d = texel.xy * 2.0 - 1.0;
     vec2 turn = materials[id].shape.xy;
     d = vec2(turn.x * d.x - turn.y * d.y, turn.y * d.x + turn.x * d.y);
@@ -65,9 +65,9 @@ void material_specular(uint id, TexturePoint point, out float f0, out float f90)
   f90 = 0.0;
   if (!has_specular) return;
   f90 = materials[id].surface.z *
-        sample_texture(uses_specular_texture, materials[id].specular_texture, point, vec4(1.0)).a;
+        sample_texture(specular_pages, materials[id].specular_texture, point, vec4(1.0)).a;
   vec3 color = materials[id].specular.rgb *
-               sample_texture(uses_specular_texture, materials[id].specular_color_texture, point, vec4(1.0)).rgb;
+               sample_texture(specular_color_pages, materials[id].specular_color_texture, point, vec4(1.0)).rgb;
   f0 = min(materials[id].shape.w * luminance(color), 1.0) * f90;
 }
 
@@ -75,7 +75,7 @@ vec3 material_emission(uint id, TexturePoint point) {
   if (!has_emissive) return vec3(0.0);
   vec3 factor = materials[id].emission.rgb;
   if (!any(greaterThan(factor, vec3(0.0)))) return vec3(0.0);
-  return factor * sample_texture(uses_emissive_texture, materials[id].emissive_texture, point, vec4(1.0)).rgb;
+  return factor * sample_texture(emissive_pages, materials[id].emissive_texture, point, vec4(1.0)).rgb;
 }
 
 // Index into the emission table, by which the surface lights others. Dim texels are seen but light nothing: the host
@@ -88,10 +88,10 @@ uint emission_index(uint id, vec3 emission) {
 MaterialSample sample_material(uint id, TexturePoint point, vec4 vertex_color) {
   MaterialSample s;
   vec4 base = materials[id].base_color * vertex_color *
-              sample_texture(true, materials[id].base_color_texture, point, vec4(1.0));
+              sample_texture(base_color_pages, materials[id].base_color_texture, point, vec4(1.0));
   s.base_color = base.rgb;
   s.alpha = base.a;
-  vec4 texel = sample_texture(uses_metallic_roughness_texture, materials[id].metallic_roughness_texture, point,
+  vec4 texel = sample_texture(metallic_roughness_pages, materials[id].metallic_roughness_texture, point,
                               vec4(1.0));
   s.metallic = has_metallic ? clamp(materials[id].surface.x * texel.b, 0.0, 1.0) : 0.0;
   material_lobe(id, point, clamp(materials[id].surface.y * texel.g, 0.0, 1.0), s.ward_alpha, s.direction);

@@ -22,7 +22,7 @@ bool sees_point(PathVertex vertex, vec3 target) { return is_free(vertex.origin, 
 // What a hint's point emits. Texels that are too dim to be drawn are left to the rays that meet them, and so is nothing
 // that is cut out.
 vec3 hint_radiance(Hint hint) {
-  if (!uses_emissive_texture && !has_alpha) return lights.emissions[uint(hint.position.w)].radiance.rgb;
+  if (emissive_pages == 0u && !has_alpha) return lights.emissions[uint(hint.position.w)].radiance.rgb;
   Triangle t = triangles[uint(hint.normal.w)];
   vec3 w = nearest_barycentric(hint.position.xyz, world_corners(t));
   TexturePoint point = texture_point(t, w);

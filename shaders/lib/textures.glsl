@@ -21,34 +21,41 @@ struct TexturePoint {
   vec4 dy;   // … and in the other
 };
 
-// Pages beyond the scene's are cut off by a constant: a CPU device runs every case of a switch for every texel.
-vec2 page_size(uint page) {
-  if (texture_page_count > 1u && page == 1u) return vec2(textureSize(texture_pages[1], 0).xy);
-  if (texture_page_count > 2u && page == 2u) return vec2(textureSize(texture_pages[2], 0).xy);
-  if (texture_page_count > 3u && page == 3u) return vec2(textureSize(texture_pages[3], 0).xy);
-  if (texture_page_count > 4u && page == 4u) return vec2(textureSize(texture_pages[4], 0).xy);
-  if (texture_page_count > 5u && page == 5u) return vec2(textureSize(texture_pages[5], 0).xy);
-  if (texture_page_count > 6u && page == 6u) return vec2(textureSize(texture_pages[6], 0).xy);
-  if (texture_page_count > 7u && page == 7u) return vec2(textureSize(texture_pages[7], 0).xy);
-  if (texture_page_count > 8u && page == 8u) return vec2(textureSize(texture_pages[8], 0).xy);
-  if (texture_page_count > 9u && page == 9u) return vec2(textureSize(texture_pages[9], 0).xy);
-  if (texture_page_count > 10u && page == 10u) return vec2(textureSize(texture_pages[10], 0).xy);
-  if (texture_page_count > 11u && page == 11u) return vec2(textureSize(texture_pages[11], 0).xy);
+// Is `page`, one of `pages`, the page `index`, if it is none of a higher index? What is constant of it is folded away: a CPU
+// device samples every page that it cannot rule out.
+bool is_page(uint pages, uint page, uint index) {
+  bool lowest = (pages & ((1u << index) - 1u)) == 0u;
+  return (pages >> index & 1u) != 0u && (lowest || page == index);
+}
+
+// Size [texels] of a page, one of `pages`.
+vec2 page_size(uint pages, uint page) {
+  if (is_page(pages, page, 11u)) return vec2(textureSize(texture_pages[11], 0).xy);
+  if (is_page(pages, page, 10u)) return vec2(textureSize(texture_pages[10], 0).xy);
+  if (is_page(pages, page, 9u)) return vec2(textureSize(texture_pages[9], 0).xy);
+  if (is_page(pages, page, 8u)) return vec2(textureSize(texture_pages[8], 0).xy);
+  if (is_page(pages, page, 7u)) return vec2(textureSize(texture_pages[7], 0).xy);
+  if (is_page(pages, page, 6u)) return vec2(textureSize(texture_pages[6], 0).xy);
+  if (is_page(pages, page, 5u)) return vec2(textureSize(texture_pages[5], 0).xy);
+  if (is_page(pages, page, 4u)) return vec2(textureSize(texture_pages[4], 0).xy);
+  if (is_page(pages, page, 3u)) return vec2(textureSize(texture_pages[3], 0).xy);
+  if (is_page(pages, page, 2u)) return vec2(textureSize(texture_pages[2], 0).xy);
+  if (is_page(pages, page, 1u)) return vec2(textureSize(texture_pages[1], 0).xy);
   return vec2(textureSize(texture_pages[0], 0).xy);
 }
 
-vec4 page_texel(uint page, vec3 where, float lod) {
-  if (texture_page_count > 1u && page == 1u) return textureLod(texture_pages[1], where, lod);
-  if (texture_page_count > 2u && page == 2u) return textureLod(texture_pages[2], where, lod);
-  if (texture_page_count > 3u && page == 3u) return textureLod(texture_pages[3], where, lod);
-  if (texture_page_count > 4u && page == 4u) return textureLod(texture_pages[4], where, lod);
-  if (texture_page_count > 5u && page == 5u) return textureLod(texture_pages[5], where, lod);
-  if (texture_page_count > 6u && page == 6u) return textureLod(texture_pages[6], where, lod);
-  if (texture_page_count > 7u && page == 7u) return textureLod(texture_pages[7], where, lod);
-  if (texture_page_count > 8u && page == 8u) return textureLod(texture_pages[8], where, lod);
-  if (texture_page_count > 9u && page == 9u) return textureLod(texture_pages[9], where, lod);
-  if (texture_page_count > 10u && page == 10u) return textureLod(texture_pages[10], where, lod);
-  if (texture_page_count > 11u && page == 11u) return textureLod(texture_pages[11], where, lod);
+vec4 page_texel(uint pages, uint page, vec3 where, float lod) {
+  if (is_page(pages, page, 11u)) return textureLod(texture_pages[11], where, lod);
+  if (is_page(pages, page, 10u)) return textureLod(texture_pages[10], where, lod);
+  if (is_page(pages, page, 9u)) return textureLod(texture_pages[9], where, lod);
+  if (is_page(pages, page, 8u)) return textureLod(texture_pages[8], where, lod);
+  if (is_page(pages, page, 7u)) return textureLod(texture_pages[7], where, lod);
+  if (is_page(pages, page, 6u)) return textureLod(texture_pages[6], where, lod);
+  if (is_page(pages, page, 5u)) return textureLod(texture_pages[5], where, lod);
+  if (is_page(pages, page, 4u)) return textureLod(texture_pages[4], where, lod);
+  if (is_page(pages, page, 3u)) return textureLod(texture_pages[3], where, lod);
+  if (is_page(pages, page, 2u)) return textureLod(texture_pages[2], where, lod);
+  if (is_page(pages, page, 1u)) return textureLod(texture_pages[1], where, lod);
   return textureLod(texture_pages[0], where, lod);
 }
 
@@ -68,13 +75,13 @@ float texture_lod(vec2 dx, vec2 dy, vec2 size) {
   return clamp(0.5 * log2(max(squared, 1.0)), 0.0, 16.0);
 }
 
-// Linear value of a material's texture, or `missing` where it has none. `used`: whether any material has one.
-vec4 sample_texture(bool used, TextureSlot slot, TexturePoint point, vec4 missing) {
-  if (!has_textured || !used || slot.page == kNoTexture) return missing;
+// Linear value of a material's texture, or `missing` where it has none. `pages`: those of textures of its kind.
+vec4 sample_texture(uint pages, TextureSlot slot, TexturePoint point, vec4 missing) {
+  if (!has_textured || pages == 0u || slot.page == kNoTexture) return missing;
   mat2 transform = mat2(slot.linear_transform.xy, slot.linear_transform.zw);
   bool second = slot.texcoord == 1u;
   vec2 uv = transform * (second ? point.uv.zw : point.uv.xy) + slot.offset;
-  vec2 size = page_size(slot.page);
+  vec2 size = page_size(pages, slot.page);
   float lod = texture_lod(transform * (second ? point.dx.zw : point.dx.xy),
                           transform * (second ? point.dy.zw : point.dy.xy), size);
   bool nearest = (slot.sampling & 16u) != 0u;
@@ -83,7 +90,7 @@ vec4 sample_texture(bool used, TextureSlot slot, TexturePoint point, vec4 missin
   uv = vec2(wrap_coordinate(uv.x, slot.sampling & 3u, texels.x),
             wrap_coordinate(uv.y, (slot.sampling >> 2) & 3u, texels.y));
   if (nearest) uv = (floor(uv * texels) + 0.5) / texels;
-  return page_texel(slot.page, vec3(uv, float(slot.layer)), lod);
+  return page_texel(pages, slot.page, vec3(uv, float(slot.layer)), lod);
 }
 
 #endif

@@ -69,6 +69,14 @@ TEST(PassRegistry, RefusesTablesThatContradictThemselves) {
          t.ports[1].like.clear();
        }},
       {"like nothing", [](PassType& t) { t.ports[1].like.clear(); }},
+      {"many times as large as nothing",
+       [](PassType& t) {
+         t.ports[0].times = {2, 1, 1};
+       }},
+      {"no times as large",
+       [](PassType& t) {
+         t.ports[1].times = {1, 0, 1};
+       }},
       {"like no input", [](PassType& t) { t.ports[1].like = "z"; }},
       {"input like an optional input",
        [](PassType& t) {

@@ -25,11 +25,11 @@ Images boxes_of(int resolution, double density, int radius) {
       "b.boxes", wide_scene());
 }
 
-/// Edges of the box of a voxel for the signs of a direction (bit a: coordinate a falls), by the port's documentation.
-glm::ivec3 edges(const image::HostImage& boxes, const glm::ivec3& voxel, int signs) {
-  const auto channel = static_cast<uint32_t>((signs & 2 ? 1 : 0) + (signs & 4 ? 2 : 0));
-  const auto word = static_cast<uint32_t>(boxes.at(static_cast<uint32_t>(voxel.x), static_cast<uint32_t>(voxel.y),
-                                                   static_cast<uint32_t>(voxel.z), channel));
+/// Edges of the box of a voxel for the signs of a direction (bit a: coordinate a falls), by the port's documentation;
+/// `size`: of the grid.
+glm::ivec3 edges(const image::HostImage& boxes, const glm::ivec3& size, const glm::ivec3& voxel, int signs) {
+  const glm::uvec3 at(voxel + glm::ivec3(0, signs & 2 ? size.y : 0, signs & 4 ? size.z : 0));
+  const auto word = static_cast<uint32_t>(boxes.at(at.x, at.y, at.z, 0));
   const uint32_t code = signs & 1 ? word >> 16U : word & 0xffffU;
   return {code % 32, code / 32 % 32, code / 1024};
 }
@@ -55,11 +55,12 @@ TEST_F(EmptyBoxes, AreEmptyWithinTheGridAndNoSmallerThanTheCube) {
     const image::HostImage& albedo = images.at("p.voxels.albedo");
     const image::HostImage& boxes = images.at("b.boxes");
     const glm::ivec3 size(albedo.desc.extent.width, albedo.desc.extent.height, albedo.desc.extent.depth);
-    ASSERT_EQ(boxes.desc.extent, albedo.desc.extent);
+    ASSERT_EQ(boxes.desc.extent,
+              (Extent3{albedo.desc.extent.width, 2 * albedo.desc.extent.height, 2 * albedo.desc.extent.depth}));
     for_each_voxel(albedo, [&](const glm::ivec3& voxel) {
       const int cube = byte_at(images.at("d.distance"), voxel, 0);
       for (int signs = 0; signs < 8; ++signs) {
-        const glm::ivec3 box = edges(boxes, voxel, signs);
+        const glm::ivec3 box = edges(boxes, size, voxel, signs);
         ASSERT_EQ(box == glm::ivec3(0), occupied(albedo, voxel));
         if (box == glm::ivec3(0)) continue;
         glm::ivec3 low = voxel, high = voxel;
@@ -95,11 +96,11 @@ TEST_F(EmptyBoxes, ReachAlongAWall) {
   while (!occupied(albedo, above)) ++above.y;
   while (occupied(albedo, above)) ++above.y;
   EXPECT_EQ(byte_at(images.at("d.distance"), above, 0), 1);
-  const glm::ivec3 up = edges(images.at("b.boxes"), above, 0);
+  const glm::ivec3 up = edges(images.at("b.boxes"), size, above, 0);
   EXPECT_GE(up.x, size.x - above.x);
   EXPECT_GE(up.z, size.z - above.z);
   EXPECT_GE(up.y, size.y / 2);
-  const glm::ivec3 down = edges(images.at("b.boxes"), above, 2);
+  const glm::ivec3 down = edges(images.at("b.boxes"), size, above, 2);
   EXPECT_EQ(down.y, 1);
   EXPECT_GE(down.x, size.x - above.x);
 }

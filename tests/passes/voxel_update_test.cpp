@@ -27,7 +27,7 @@ class Notebook final : public PassContext {
   [[nodiscard]] bool connected(std::string_view /*input_port*/) const override { return true; }
   [[nodiscard]] TriangleRange static_triangles() const override { return {0, 100}; }
   [[nodiscard]] TriangleRange dynamic_triangles() const override { return {100, 10}; }
-  [[nodiscard]] bool scene_has(std::string_view) const override { return true; }
+  [[nodiscard]] std::vector<TriangleRange> triangles(TriangleKind /*kind*/) const override { return {{0, 110}}; }
   [[nodiscard]] bool kept(std::string_view /*port*/) const override { return kept_; }
   [[nodiscard]] bool wanted(std::string_view /*output_port*/) const override { return true; }
   [[nodiscard]] std::vector<VoxelBox> moved_boxes(const Extent3& /*grid*/) const override { return moved_; }

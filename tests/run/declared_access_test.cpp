@@ -32,7 +32,7 @@ class NotingContext final : public PassContext {
   bool connected(std::string_view) const override { return true; }
   TriangleRange static_triangles() const override { return {0, 5}; }
   TriangleRange dynamic_triangles() const override { return {5, 3}; }
-  bool scene_has(std::string_view) const override { return true; }
+  std::vector<TriangleRange> triangles(TriangleKind) const override { return {{0, 8}}; }
   bool kept(std::string_view) const override { return kept_; }
   bool wanted(std::string_view) const override { return true; }
   std::vector<VoxelBox> moved_boxes(const Extent3&) const override { return {{{1, 1, 1}, {2, 2, 2}}}; }

@@ -105,8 +105,7 @@ void record_blank(PassContext& context) {
 Draw cover(const std::string& shader, const Extent3& area) {
   return {.vertex_shader = "integer_cover.vert",
           .fragment_shader = "integer_" + shader + ".frag",
-          .first_triangle = 0,
-          .triangle_count = 1,
+          .triangles = {{0, 1}},
           .depth_port = {},
           .area = area,
           .values = {}};
