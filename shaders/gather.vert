@@ -9,7 +9,7 @@ layout(location = 0) flat out uint triangle;   // index + 1
 
 void main() {
   uint index = uint(gl_VertexIndex) / 3u;
-  Triangle t = triangles[index];
+  Triangle t = triangle_at(index);
   triangle = index + 1u;
   gl_Position = alpha_masked(t.material) ? kNowhere : clip_position(t, uint(gl_VertexIndex) % 3u);
 }

@@ -12,7 +12,7 @@ layout(location = 2) out float alpha;      // of the vertex colour
 void main() {
   uint index = uint(gl_VertexIndex) / 3u;
   uint corner = uint(gl_VertexIndex) % 3u;
-  Triangle t = triangles[index];
+  Triangle t = triangle_at(index);
   uint vertex = corner_vertex(t, corner);
   ids = uvec2(index + 1u, t.material);
   texcoords = vertex_texcoords(vertex);

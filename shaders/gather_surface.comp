@@ -64,7 +64,7 @@ vec4 texcoord_change(Triangle t, vec3 from, vec3 to) {
 }
 
 Surface surface_at(ivec2 pixel, ivec2 size, uint index) {
-  Triangle t = triangles[index];
+  Triangle t = triangle_at(index);
   Corners corners = world_corners(t);
   ViewRay ray = view_ray(pixel, size);
   vec3 on_plane = plane_weights(ray.origin, ray.direction, corners);

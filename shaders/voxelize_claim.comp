@@ -50,7 +50,7 @@ void main() {
 
   if (gl_GlobalInvocationID.x < triangle_count) {
     uint index = first_triangle + gl_GlobalInvocationID.x;
-    Triangle t = triangles[index];
+    Triangle t = triangle_at(index);
     Corners in_grid = grid_corners(grid, t);
     Supercover cover = make_supercover(in_grid, grid.extent);
     // What has been scaled to nothing is a point and has no surface.
@@ -67,7 +67,7 @@ void main() {
 
   for (uint i = 0u; i < large_count; ++i) {
     uint index = large_triangles[i];
-    Triangle t = triangles[index];
+    Triangle t = triangle_at(index);
     Corners in_grid = grid_corners(grid, t);
     Supercover cover = make_supercover(in_grid, grid.extent);
     claim_columns(index, t, in_grid, cover, slice * gl_WorkGroupSize.x + gl_LocalInvocationIndex,

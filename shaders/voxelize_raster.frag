@@ -23,7 +23,7 @@ void main() {
   height = clamp(floor(clamp(height, reach.x, reach.y)), -1.0, float(extent.x + extent.y + extent.z));
   ivec3 voxel = turn_back(ivec3(vec3(center, height)), axis);
   if (!inside_grid(extent, voxel)) return;
-  Triangle t = triangles[index];
+  Triangle t = triangle_at(index);
   if (alpha_masked(t.material) && cut_out_in_voxel(t, grid_corners(scene_grid(extent), t), voxel)) return;
   imageAtomicMax(owner, voxel, owner_key(index, t.material));
 }

@@ -24,7 +24,7 @@ void main() {
   index = uint(gl_VertexIndex) / 3u;
   uint which = uint(gl_VertexIndex) % 3u;
   Grid grid = scene_grid(ivec3(grid_width, grid_height, grid_depth));
-  Supercover cover = make_supercover(grid_corners(grid, triangles[index]), grid.extent);
+  Supercover cover = make_supercover(grid_corners(grid, triangle_at(index)), grid.extent);
   Corners t = cover.corners;
   axis = cover.axis;
   corner = t.a;

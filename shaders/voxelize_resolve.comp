@@ -49,7 +49,7 @@ VoxelSurface surface_in_voxel(Grid grid, Triangle t, ivec3 voxel) {
 
 void resolve(Grid grid, ivec3 voxel) {
   vec4 albedo, normal, material;
-  encode_voxel(surface_in_voxel(grid, triangles[owner_triangle(imageLoad(owner, voxel).x)], voxel),
+  encode_voxel(surface_in_voxel(grid, triangle_at(owner_triangle(imageLoad(owner, voxel).x)), voxel),
                uvec3(out_voxels_albedo_bits, out_voxels_normal_bits, out_voxels_material_bits), albedo, normal, material);
   imageStore(out_voxels_albedo, voxel, albedo);
   imageStore(out_voxels_normal, voxel, normal);

@@ -8,7 +8,8 @@
 namespace lightloom::gpu {
 namespace {
 
-void check_limits(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, const std::string& owner) {
+void check_limits(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, BufferBinding binding,
+                  const std::string& owner) {
   if (size == 0) throw Error(ExitCode::run_failed, owner + " has no bytes; a buffer has at least one");
   const VkPhysicalDeviceLimits& limits = device.info().limits;
   const auto require = [&](VkBufferUsageFlags flag, uint64_t limit, const char* what) {
@@ -19,17 +20,18 @@ void check_limits(const Device& device, VkDeviceSize size, VkBufferUsageFlags us
                 "the scene or the graph is too large for this device");
   };
   // What is reached by its address is not bound as a range.
-  if ((usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) == 0)
+  if ((usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) == 0 && binding == BufferBinding::whole)
     require(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, limits.maxStorageBufferRange, "storage");
   require(VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, limits.maxUniformBufferRange, "uniform");
 }
 
 }  // namespace
 
-Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind, std::string name)
+Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind, std::string name,
+               BufferBinding binding)
     : name_(std::move(name)), size_(size) {
   const std::string owner = "buffer '" + name_ + "'";
-  check_limits(device, size, usage, owner);
+  check_limits(device, size, usage, binding, owner);
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = size;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -8,12 +9,16 @@
 
 namespace lightloom::gpu {
 
+/// How shaders reach a storage buffer: all of it at once, which devices limit, or in pieces (buffer_pieces.hpp).
+enum class BufferBinding : uint8_t { whole, pieces };
+
 /// A buffer with its own memory. TRANSFER_SRC and TRANSFER_DST are always among its usages. SHADER_DEVICE_ADDRESS needs
 /// a device with ray queries.
 class Buffer {
  public:
   /// @param size [bytes], at least 1
-  Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind, std::string name = {});
+  Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind, std::string name = {},
+         BufferBinding binding = BufferBinding::whole);
 
   [[nodiscard]] VkBuffer get() const { return buffer_.get(); }
   [[nodiscard]] VkDeviceSize size() const { return size_; }

@@ -66,7 +66,9 @@ class SetWriter {
     write.descriptorCount = binding.count;
     write.descriptorType = descriptor_type(binding.kind);
     if (const auto* buffer = std::get_if<BufferResource>(&resource)) {
-      write.pBufferInfo = buffer_info(binding, *buffer);
+      write.pBufferInfo = buffer_infos(binding, std::span(buffer, 1));
+    } else if (const auto* buffers = std::get_if<std::vector<BufferResource>>(&resource)) {
+      write.pBufferInfo = buffer_infos(binding, *buffers);
     } else if (const auto* image = std::get_if<ImageResource>(&resource)) {
       write.pImageInfo = image_infos(binding, std::span(image, 1));
     } else if (const auto* images = std::get_if<std::vector<ImageResource>>(&resource)) {
@@ -84,17 +86,26 @@ class SetWriter {
   }
 
  private:
-  const VkDescriptorBufferInfo* buffer_info(const Binding& binding, const BufferResource& buffer) {
-    if (binding.kind != BindingKind::uniform_buffer && binding.kind != BindingKind::storage_buffer) {
+  const VkDescriptorBufferInfo* buffer_infos(const Binding& binding, std::span<const BufferResource> buffers) {
+    if (binding.kind != BindingKind::uniform_buffer && binding.kind != BindingKind::storage_buffer)
       fail(reflection_, binding, "is given a buffer");
+    check_count(binding, buffers.size());
+    std::vector<VkDescriptorBufferInfo>& infos = buffers_.emplace_back();
+    for (const BufferResource& buffer : buffers) {
+      if (buffer.range != VK_WHOLE_SIZE && buffer.range < binding.block_size) {
+        fail(reflection_, binding,
+             "needs " + std::to_string(binding.block_size) + " bytes and is given a buffer of " +
+                 std::to_string(buffer.range));
+      }
+      infos.push_back({buffer.buffer, buffer.offset, buffer.range});
     }
-    if (binding.count != 1) fail(reflection_, binding, "is an array of buffers, which is not supported");
-    if (buffer.range != VK_WHOLE_SIZE && buffer.range < binding.block_size) {
-      fail(reflection_, binding,
-           "needs " + std::to_string(binding.block_size) + " bytes and is given a buffer of " +
-               std::to_string(buffer.range));
-    }
-    return &buffers_.emplace_back(VkDescriptorBufferInfo{buffer.buffer, buffer.offset, buffer.range});
+    return infos.data();
+  }
+
+  void check_count(const Binding& binding, size_t given) const {
+    if (given == binding.count) return;
+    fail(reflection_, binding,
+         "has " + std::to_string(binding.count) + " elements and is given " + std::to_string(given));
   }
 
   void check_image(const Binding& binding, const ImageResource& image) const {
@@ -120,10 +131,7 @@ class SetWriter {
 
   const VkDescriptorImageInfo* image_infos(const Binding& binding, std::span<const ImageResource> images) {
     if (!is_image(binding.kind)) fail(reflection_, binding, "is given an image");
-    if (images.size() != binding.count) {
-      fail(reflection_, binding,
-           "has " + std::to_string(binding.count) + " elements and is given " + std::to_string(images.size()));
-    }
+    check_count(binding, images.size());
     std::vector<VkDescriptorImageInfo>& infos = images_.emplace_back();
     for (const ImageResource& image : images) {
       check_image(binding, image);
@@ -154,7 +162,7 @@ class SetWriter {
   VkDescriptorSet set_;
   std::vector<VkWriteDescriptorSet> writes_;
   // The writes point into these; a deque does not move what it holds.
-  std::deque<VkDescriptorBufferInfo> buffers_;
+  std::deque<std::vector<VkDescriptorBufferInfo>> buffers_;
   std::deque<std::vector<VkDescriptorImageInfo>> images_;
   std::deque<VkWriteDescriptorSetAccelerationStructureKHR> accelerations_;
 };

@@ -34,9 +34,9 @@ struct AccelerationResource {
   VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
 };
 
-/// What a name of a shader is bound to. A list of images is for an array of textures and has its length.
-using Resource =
-    std::variant<BufferResource, ImageResource, std::vector<ImageResource>, SamplerResource, AccelerationResource>;
+/// What a name of a shader is bound to. A list is for an array of textures or blocks and has its length.
+using Resource = std::variant<BufferResource, std::vector<BufferResource>, ImageResource, std::vector<ImageResource>,
+                              SamplerResource, AccelerationResource>;
 using ResourceMap = std::map<std::string, Resource, std::less<>>;
 
 [[nodiscard]] Resource resource(const Buffer& buffer);

@@ -101,7 +101,9 @@ void read_block(const SpirvReader& reader, const spvc_reflected_resource& resour
   binding.name = spvc_compiler_get_name(reader.get(), resource.base_type_id);
   const spvc_type type = spvc_compiler_get_type_handle(reader.get(), resource.base_type_id);
   binding.members = struct_members(reader, type);
-  mark_used(reader, resource, binding.members);
+  // Of an array of blocks the library takes the number of the block for that of a member.
+  const spvc_type whole = spvc_compiler_get_type_handle(reader.get(), resource.type_id);
+  if (spvc_type_get_num_array_dimensions(whole) == 0) mark_used(reader, resource, binding.members);
   size_t size = 0;
   reader.check(spvc_compiler_get_declared_struct_size(reader.get(), type, &size));
   binding.block_size = static_cast<uint32_t>(size);

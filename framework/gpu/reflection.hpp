@@ -43,7 +43,8 @@ struct BlockMember {
   uint32_t array_count = 1;          ///< 0: runtime array
   uint32_t array_stride = 0;         ///< [bytes], arrays only
   std::vector<BlockMember> members;  ///< of a struct
-  /// Members of a uniform or storage block, not those of structs in it: the code names it, in whatever branch.
+  /// Members of a uniform or storage block, not those of structs in it: the code names it, in whatever branch. True for
+  /// all members of an array of blocks.
   bool used = true;
 };
 

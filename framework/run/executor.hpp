@@ -45,6 +45,9 @@ struct ExecutorOptions {
   /// Shaders and pipelines, to be shared by executors on the same device with the same `shaders`; empty: the executor's
   /// own.
   std::shared_ptr<ShaderLibrary> library = nullptr;
+  /// Of the scene's vertices or triangles, so many bytes at the most lie in one block of a shader; empty: what the
+  /// device allows. The bits are the same.
+  std::optional<uint64_t> geometry_piece_bytes = std::nullopt;
   bool single_texels = false;  ///< of what is read back one texel each comes to the host: Executor::look_at
 };
 

@@ -13,6 +13,7 @@ constexpr uint32_t kHistoryLimit = 16;
 constexpr uint32_t kEmissionLimit = 256;
 constexpr uint32_t kHintLimit = 1024;
 constexpr uint32_t kPunctualLimit = 64;
+constexpr uint32_t kGeometryPieces = 4;
 
 struct FrameBlock {
   glm::mat4 view_projection[kHistoryLimit];

@@ -51,9 +51,10 @@ constexpr std::array kLightMembers = {
 constexpr std::string_view kFrameBlock = "FrameBlock";
 constexpr std::string_view kLightBlock = "LightBlock";
 /// Beside `has_` and the name of a feature.
-constexpr std::array<std::string_view, 7> kTextureConstants = {
-    "base_color_pages", "metallic_roughness_pages", "normal_pages",        "emissive_pages",
-    "anisotropy_pages", "specular_pages",           "specular_color_pages"};
+constexpr std::array<std::string_view, 11> kSceneConstants = {
+    "base_color_pages",   "metallic_roughness_pages", "normal_pages",         "emissive_pages",
+    "anisotropy_pages",   "specular_pages",           "specular_color_pages", "vertex_piece_bits",
+    "vertex_piece_count", "triangle_piece_bits",      "triangle_piece_count"};
 
 template <size_t N>
 const ReadRow* find_row(const std::array<ReadRow, N>& rows, std::string_view name) {
@@ -78,7 +79,7 @@ bool is_scene_binding(std::string_view name) {
 }
 
 bool is_scene_constant(std::string_view name) {
-  if (std::find(kTextureConstants.begin(), kTextureConstants.end(), name) != kTextureConstants.end()) return true;
+  if (std::find(kSceneConstants.begin(), kSceneConstants.end(), name) != kSceneConstants.end()) return true;
   const auto features = scene::Features{}.named();
   return std::any_of(features.begin(), features.end(),
                      [&](const auto& feature) { return name == "has_" + feature.first; });

@@ -47,6 +47,23 @@ gpu::Buffer storage_buffer(gpu::Device& device, VkDeviceSize size, const char* n
   return {device, at_least_one(size), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | usage, gpu::MemoryKind::device, name};
 }
 
+/// How shaders see `count` elements of the scene's geometry (shaders/lib/scene.glsl).
+gpu::BufferPieces geometry_pieces(const gpu::Device& device, uint64_t count, uint64_t element_bytes,
+                                  const std::optional<uint64_t>& most_bytes, const char* name) {
+  const uint64_t limit = most_bytes.value_or(device.info().limits.maxStorageBufferRange);
+  const gpu::BufferPieces pieces = gpu::pieces_of(count, element_bytes, limit);
+  if (pieces.count <= kGeometryPieces) return pieces;
+  throw Error(ExitCode::invalid_input,
+              std::string("the scene's ") + name + " take " + gpu::bytes_text(count * element_bytes) +
+                  ", more than the " + std::to_string(kGeometryPieces) + " times " +
+                  gpu::bytes_text(element_bytes << pieces.bits) + " that shaders can reach on this device");
+}
+
+gpu::Buffer geometry_buffer(gpu::Device& device, VkDeviceSize size, const char* name, VkBufferUsageFlags usage = 0) {
+  return {device, at_least_one(size),        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | usage, gpu::MemoryKind::device,
+          name,   gpu::BufferBinding::pieces};
+}
+
 gpu::Buffer uniform_buffer(gpu::Device& device, VkDeviceSize size, const char* name) {
   return {device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryKind::device, name};
 }
@@ -148,9 +165,13 @@ SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene, S
       emission_(scene::build_emission_table(scene)),
       emitters_(scene, emission_),
       samplers_(device),
-      vertices_(storage_buffer(device, scene.vertices.size() * sizeof(scene::Vertex), "vertices",
-                               options_.ray_queries ? gpu::kBuildInputUsage : 0)),
-      triangles_(storage_buffer(device, scene.triangles.size() * sizeof(scene::Triangle), "triangles")),
+      vertex_pieces_(geometry_pieces(device, scene.vertices.size(), sizeof(scene::Vertex),
+                                     options_.geometry_piece_bytes, "vertices")),
+      triangle_pieces_(geometry_pieces(device, scene.triangles.size(), sizeof(scene::Triangle),
+                                       options_.geometry_piece_bytes, "triangles")),
+      vertices_(geometry_buffer(device, scene.vertices.size() * sizeof(scene::Vertex), "vertices",
+                                options_.ray_queries ? gpu::kBuildInputUsage : 0)),
+      triangles_(geometry_buffer(device, scene.triangles.size() * sizeof(scene::Triangle), "triangles")),
       past_positions_(storage_buffer(device, kHistoryLimit * dynamic_position_bytes(scene), "past positions")),
       frame_block_(uniform_buffer(device, sizeof(FrameBlock), "frame block")),
       light_block_(uniform_buffer(device, sizeof(LightBlock), "light block")),
@@ -205,8 +226,9 @@ void SceneResources::bind() {
   gpu::ResourceMap& resources = bindings_.resources;
   resources.emplace("FrameBlock", gpu::resource(frame_block_));
   resources.emplace("LightBlock", gpu::resource(light_block_));
-  resources.emplace("VertexBlock", gpu::resource(vertices_));
-  resources.emplace("TriangleBlock", gpu::resource(triangles_));
+  resources.emplace("VertexBlock", gpu::resource(vertices_, vertex_pieces_, sizeof(scene::Vertex), kGeometryPieces));
+  resources.emplace("TriangleBlock",
+                    gpu::resource(triangles_, triangle_pieces_, sizeof(scene::Triangle), kGeometryPieces));
   resources.emplace("PastPositionBlock", gpu::resource(past_positions_));
   resources.emplace("MaterialBlock", gpu::resource(materials_.front()));
   resources.emplace("texture_pages", pages);
@@ -219,6 +241,10 @@ void SceneResources::bind() {
   for (const auto& [name, present] : scene_.features.named())
     bindings_.values.push_back({"has_" + name, present || options_.general});
   bindings_.values.insert(bindings_.values.end(), texture_values_.begin(), texture_values_.end());
+  bindings_.values.insert(bindings_.values.end(), {{"vertex_piece_bits", vertex_pieces_.bits},
+                                                   {"vertex_piece_count", vertex_pieces_.count},
+                                                   {"triangle_piece_bits", triangle_pieces_.bits},
+                                                   {"triangle_piece_count", triangle_pieces_.count}});
   bindings_.static_triangles = range(0, scene_.static_triangle_count);
   bindings_.dynamic_triangles = range(scene_.static_triangle_count, scene_.triangles.size());
   const auto is_masked = [this](uint32_t triangle) {

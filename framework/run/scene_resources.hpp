@@ -5,6 +5,7 @@
 #include <string>
 
 #include "framework/gpu/buffer.hpp"
+#include "framework/gpu/buffer_pieces.hpp"
 #include "framework/gpu/image.hpp"
 #include "framework/gpu/samplers.hpp"
 #include "framework/run/frame_result.hpp"
@@ -31,6 +32,7 @@ struct SceneResourceOptions {
   std::optional<double> frozen_time = std::nullopt;  ///< every frame shows the scene at this time [s]
   bool general = false;                              ///< shaders see every feature, whatever the scene has
   bool ray_queries = false;                          ///< some pass asks what rays meet: builds acceleration structures
+  std::optional<uint64_t> geometry_piece_bytes = std::nullopt;  ///< ExecutorOptions::geometry_piece_bytes
 };
 
 /// The scene on the device: uploaded once, but for what moves and the blocks of the frame, which are staged by
@@ -71,6 +73,8 @@ class SceneResources {
   scene::EmitterSampler emitters_;
   std::vector<std::string> warnings_;
   gpu::Samplers samplers_;
+  gpu::BufferPieces vertex_pieces_;
+  gpu::BufferPieces triangle_pieces_;
   gpu::Buffer vertices_;
   gpu::Buffer triangles_;
   gpu::Buffer past_positions_;  ///< kHistoryLimit slots of a vec4 for each dynamic vertex

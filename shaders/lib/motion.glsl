@@ -21,7 +21,7 @@ Corners past_corners(Triangle t, uint age) {
 // have moved since, so that the id's rounding of the weights counts by the motion's change over the triangle alone.
 vec3 past_position(uvec4 id, vec3 position, uint age) {
   if (!is_dynamic(id)) return position;
-  Triangle t = triangles[id.z];
+  Triangle t = triangle_at(id.z);
   Corners now = past_corners(t, 0u);
   Corners then = past_corners(t, age);
   vec2 w = unpackUnorm2x16(id.w);
@@ -40,7 +40,7 @@ mat3 face_frame(Corners t) {
 // seen of it.
 vec3 past_normal(uvec4 id, vec3 normal, uint age) {
   if (!is_dynamic(id)) return normal;
-  Triangle t = triangles[id.z];
+  Triangle t = triangle_at(id.z);
   return face_frame(past_corners(t, age)) * (normal * face_frame(past_corners(t, 0u)));
 }
 

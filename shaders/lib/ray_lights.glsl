@@ -23,7 +23,7 @@ bool sees_point(PathVertex vertex, vec3 target) { return is_free(vertex.origin, 
 // that is cut out.
 vec3 hint_radiance(Hint hint) {
   if (emissive_pages == 0u && !has_alpha) return lights.emissions[uint(hint.position.w)].radiance.rgb;
-  Triangle t = triangles[uint(hint.normal.w)];
+  Triangle t = triangle_at(uint(hint.normal.w));
   vec3 w = nearest_barycentric(hint.position.xyz, world_corners(t));
   TexturePoint point = texture_point(t, w);
   vec3 emission = material_emission(t.material, point);

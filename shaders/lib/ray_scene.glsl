@@ -30,7 +30,7 @@ TexturePoint texture_point(Triangle t, vec3 weights) {
 }
 
 bool cut_out_at(uint triangle, vec2 weights) {
-  Triangle t = triangles[triangle];
+  Triangle t = triangle_at(triangle);
   vec3 w = corner_weights(weights);
   return cut_out(t.material, material_alpha(t.material, texture_point(t, w), interpolate_color(t, w)));
 }

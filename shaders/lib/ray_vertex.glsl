@@ -20,7 +20,7 @@ vec3 ray_origin(vec3 position, vec3 side, Corners corners) {
 // Puts the first hit, which the G-buffer knows to half precision, onto the plane of its triangle.
 void refine_first_hit(inout PathVertex vertex, uint triangle) {
   if (triangle >= frame.counts.x + frame.counts.y) return;
-  Corners corners = world_corners(triangles[triangle]);
+  Corners corners = world_corners(triangle_at(triangle));
   vec3 normal = safe_normalize(area_normal(corners), vertex.geometric_normal);
   if (dot(normal, vertex.geometric_normal) < 0.0) normal = -normal;
   vertex.geometric_normal = normal;
@@ -31,7 +31,7 @@ void refine_first_hit(inout PathVertex vertex, uint triangle) {
 // The surface that a ray met, with lobes at least as wide as `least_alpha`. What is unlit shows its colour to the viewer
 // alone; here it reflects like anything else.
 SurfaceHit surface_hit(RayHit hit, vec3 direction, float least_alpha) {
-  Triangle t = triangles[hit.triangle];
+  Triangle t = triangle_at(hit.triangle);
   vec3 w = corner_weights(hit.weights);
   Corners corners = world_corners(t);
   vec3 face = safe_normalize(area_normal(corners), -direction);

@@ -8,6 +8,7 @@ const uint kEmissionLimit = 256u;    // emission table; entry 0 is "no emission"
 const uint kHintLimit = 1024u;       // light sample points drawn on the host each frame
 const uint kPunctualLimit = 64u;
 const uint kTexturePageCount = 12u;
+const uint kGeometryPieces = 4u;
 
 // Frame state. `eye.w` is 1 for a perspective camera (xyz: position [m]) and 0 for an orthographic one (xyz: unit
 // direction towards the viewer), so the direction to the viewer is normalize(eye.xyz - position * eye.w).
@@ -26,7 +27,7 @@ layout(std140) uniform FrameBlock {
 } frame;
 
 // Packed as floats so that std430 has no padding. color: RGBA8 unorm in linear space, as uint bits.
-struct Vertex {
+struct StoredVertex {
   float px, py, pz, u0;
   float nx, ny, nz, v0;
   float tx, ty, tz, tw;    // w: sign of the bitangent = cross(normal, tangent) * w
@@ -34,10 +35,48 @@ struct Vertex {
   uint color;
   uint reserved;
 };
+struct StoredTriangle { uint a, b, c, material, object; };
+
+// Static ones first, then dynamic. A device may bind less of a buffer at once than a scene has, so that both lie in pieces
+// of 2^bits elements; vertex_at and triangle_at find them.
+layout(std430) readonly buffer VertexBlock { StoredVertex vertices[]; } vertex_pieces[kGeometryPieces];
+layout(std430) readonly buffer TriangleBlock { StoredTriangle triangles[]; } triangle_pieces[kGeometryPieces];
+layout(constant_id = 130) const uint vertex_piece_bits = 31u;
+layout(constant_id = 131) const uint vertex_piece_count = 1u;
+layout(constant_id = 132) const uint triangle_piece_bits = 31u;
+layout(constant_id = 133) const uint triangle_piece_count = 1u;
+
+struct Vertex {
+  vec3 position;   // [m]
+  vec3 normal;
+  vec4 tangent;
+  vec4 texcoords;  // set 0 in xy, 1 in zw
+  vec4 color;
+};
 struct Triangle { uint a, b, c, material, object; };
 
-layout(std430) readonly buffer VertexBlock { Vertex vertices[]; };
-layout(std430) readonly buffer TriangleBlock { Triangle triangles[]; };   // static first, then dynamic
+// What of it is not used is not read.
+Vertex vertex_at(uint index) {
+  uint piece = index >> vertex_piece_bits;
+  uint at = index & ((1u << vertex_piece_bits) - 1u);
+  StoredVertex v = vertex_pieces[0].vertices[at];
+  if (vertex_piece_count > 1u && piece == 1u) v = vertex_pieces[1].vertices[at];
+  if (vertex_piece_count > 2u && piece == 2u) v = vertex_pieces[2].vertices[at];
+  if (vertex_piece_count > 3u && piece == 3u) v = vertex_pieces[3].vertices[at];
+  return Vertex(vec3(v.px, v.py, v.pz), vec3(v.nx, v.ny, v.nz), vec4(v.tx, v.ty, v.tz, v.tw),
+                vec4(v.u0, v.v0, v.u1, v.v1), unpackUnorm4x8(v.color));
+}
+
+Triangle triangle_at(uint index) {
+  uint piece = index >> triangle_piece_bits;
+  uint at = index & ((1u << triangle_piece_bits) - 1u);
+  StoredTriangle t = triangle_pieces[0].triangles[at];
+  if (triangle_piece_count > 1u && piece == 1u) t = triangle_pieces[1].triangles[at];
+  if (triangle_piece_count > 2u && piece == 2u) t = triangle_pieces[2].triangles[at];
+  if (triangle_piece_count > 3u && piece == 3u) t = triangle_pieces[3].triangles[at];
+  return Triangle(t.a, t.b, t.c, t.material, t.object);
+}
+
 // Where the dynamic vertices were: kHistoryLimit slots, used in turn, of frame.motion.y positions [m]; see motion.glsl.
 layout(std430) readonly buffer PastPositionBlock { vec4 past_positions[]; };
 

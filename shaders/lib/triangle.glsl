@@ -5,15 +5,11 @@
 #include "lib/corners.glsl"
 #include "lib/scene.glsl"
 
-vec3 vertex_position(uint index) { return vec3(vertices[index].px, vertices[index].py, vertices[index].pz); }
-vec3 vertex_normal(uint index) { return vec3(vertices[index].nx, vertices[index].ny, vertices[index].nz); }
-vec4 vertex_tangent(uint index) {
-  return vec4(vertices[index].tx, vertices[index].ty, vertices[index].tz, vertices[index].tw);
-}
-vec4 vertex_texcoords(uint index) {
-  return vec4(vertices[index].u0, vertices[index].v0, vertices[index].u1, vertices[index].v1);
-}
-vec4 vertex_color(uint index) { return unpackUnorm4x8(vertices[index].color); }
+vec3 vertex_position(uint index) { return vertex_at(index).position; }
+vec3 vertex_normal(uint index) { return vertex_at(index).normal; }
+vec4 vertex_tangent(uint index) { return vertex_at(index).tangent; }
+vec4 vertex_texcoords(uint index) { return vertex_at(index).texcoords; }
+vec4 vertex_color(uint index) { return vertex_at(index).color; }
 
 Corners world_corners(Triangle t) { return Corners(vertex_position(t.a), vertex_position(t.b), vertex_position(t.c)); }
 

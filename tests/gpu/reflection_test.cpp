@@ -230,6 +230,21 @@ void main() { r = textureLod(pages[1], vec2(0), 0.0); }
               HasSubstr("'pages'"));
 }
 
+TEST_F(ReflectionTest, AnArrayOfBlocksHasTheMembersOfOne) {
+  const ShaderProgram program = compile_compute(R"(
+layout(std430) readonly buffer NumberBlock { uint first; vec2 numbers[]; } pieces[3];
+layout(std430) buffer R { vec2 r; };
+void main() { r = pieces[0].numbers[1] + pieces[2].numbers[0]; }
+)");
+  const Binding* binding = program.reflection.find_binding("NumberBlock");
+  ASSERT_NE(binding, nullptr);
+  EXPECT_EQ(binding->count, 3u);
+  ASSERT_EQ(binding->members.size(), 2u);
+  EXPECT_EQ(binding->members[1].offset, 8u);
+  EXPECT_EQ(binding->members[1].array_stride, 8u);
+  EXPECT_FALSE(binding->writable);
+}
+
 const char* const kVertex = R"(
 layout(std140) uniform FrameBlock { mat4 matrix; } frame;
 layout(std430) readonly buffer VertexBlock { vec4 vertices[]; };

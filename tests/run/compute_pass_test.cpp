@@ -93,7 +93,7 @@ TEST_F(ComputePass, DisabledItIsAsIfItHadNeverBeenWritten) {
 
 TEST_F(ComputePass, IsHoistedUnlessWhatItReadsChanges) {
   write_shader("static.comp", std::string("#include \"lib/scene.glsl\"\n") + kOutput,
-               "vec4(frame.scene_max.x, vertices[triangles[0].a].px, 0, 0)");
+               "vec4(frame.scene_max.x, vertex_at(triangle_at(0).a).position.x, 0, 0)");
   write_shader("eye.comp", std::string("#include \"lib/scene.glsl\"\n") + kOutput, "frame.eye[0]");
   write_shader("seed.comp", std::string("#include \"lib/scene.glsl\"\n") + kOutput, "vec4(frame.ids.y)");
   const auto made = plan(std::string(kRamp) + R"(, "static": { "type": "compute", "shader": "static.comp" },

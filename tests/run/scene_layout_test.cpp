@@ -33,7 +33,7 @@ class SceneLayout : public ::testing::Test {
 layout(local_size_x = 1) in;
 layout(std430) writeonly buffer ResultBlock { float result; };
 void main() {
-  result = frame.counts.x + vertices[0].v1 + triangles[0].object + materials[0].flags.w +
+  result = frame.counts.x + vertex_at(0).position.x + triangle_at(0).object + materials[0].flags.w +
            lights.emissions[1].sides.x + lights.emitters[1].surface.x + lights.hints[1].normal.x + lights.punctual[1].cone.x + past_positions[1].x;
 })";
     const gpu::ShaderSource source{"user.comp", kUser, gpu::Stage::compute};
@@ -95,6 +95,8 @@ TEST_F(SceneLayout, VerticesAndTriangles) {
   EXPECT_EQ(triangle.at("triangles[]"), sizeof(scene::Triangle));
   EXPECT_EQ(triangle.at("triangles.material"), offsetof(scene::Triangle, material));
   EXPECT_EQ(triangle.at("triangles.object"), offsetof(scene::Triangle, object));
+  EXPECT_EQ(reflection.find_binding("VertexBlock")->count, kGeometryPieces);
+  EXPECT_EQ(reflection.find_binding("TriangleBlock")->count, kGeometryPieces);
 }
 
 TEST_F(SceneLayout, PastPositions) {
