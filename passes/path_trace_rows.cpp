@@ -20,6 +20,12 @@ std::vector<Param> scatter_params() {
       integer_param("paths", 1, 1, 256, "", "paths per pixel and frame"),
       integer_param("bounces", 3, 0, 64, "",
                     "times that light may be scattered on its way to the first hit; 0 leaves direct light"),
+      choice_param(
+          "sampling", "independent", {"independent", "low_discrepancy"},
+          "random numbers: each independent of all others; or even over the paths of a pixel and over the pixels "
+          "around "
+          "it (a scrambled Sobol sequence in Morton order), so that paths and filters that average over them are less "
+          "noisy for the same mean; frames are independent either way"),
       real_param("regularization", 0.5, 0, 1, "",
                  "a path that left a lobe of some Ward alpha sees later lobes at least as wide, up to this alpha (the "
                  "base counts as 1); keeps reflections of the sun by glossy surfaces from becoming speckle on others; "

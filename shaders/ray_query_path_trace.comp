@@ -71,7 +71,7 @@ void main() {
   if (lit) {
     PathVertex first = first_hit(pixel);
     refine_first_hit(first, texelFetch(surface_id, pixel, 0).z);
-    RandomKey key = RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u);
+    RandomKey key = RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u, paths);
     for (key.path = 0u; key.path < paths; ++key.path) add_path(sum, first, trace_path(first, key));
   }
   store_light(pixel, sum, paths, lit);

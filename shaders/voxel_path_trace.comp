@@ -135,7 +135,7 @@ void main() {
   if (lit) {
     Grid grid = scene_grid(textureSize(distance, 0));
     PathVertex first = surface_vertex(grid, pixel);
-    RandomKey key = RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u);
+    RandomKey key = RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u, paths);
     for (key.path = 0u; key.path < paths; ++key.path) add_path(sum, first, trace_path(grid, first, key));
   }
   store_light(pixel, sum, paths, lit);

@@ -22,7 +22,7 @@ float bad_value() { return uintBitsToFloat(bad_bits == 1u ? 0x7FC00000u : bad_bi
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, imageSize(out_radiance)))) return;
-  RandomKey key = RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u);
+  RandomKey key = RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u, 1u);
   vec3 value = vec3(mean) + width * (random4(key, 0u, 0u).xyz - 0.5);
   if (bad_bits != 0u && pixel == ivec2(1, 2) && frame.ids.x == bad_frame) value = vec3(bad_value());
   imageStore(out_radiance, pixel, vec4(value, 1.0));

@@ -35,6 +35,6 @@ void main() {
                                     seed_low | (seed_high << 16u));
   words[along_x] += place.x * step_x;
   words[along_y] += place.y * step_y;
-  RandomKey key = RandomKey(uvec2(words[0], words[1]), words[2], words[6], words[3]);
+  RandomKey key = RandomKey(uvec2(words[0], words[1]), words[2], words[6], words[3], 1u);
   imageStore(out_bits, ivec2(place), random_bits(key, words[4], words[5]));
 }

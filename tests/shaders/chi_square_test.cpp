@@ -82,7 +82,7 @@ std::vector<double> observe(gpu::Device& device, const std::string& body, const 
                             const std::vector<ShaderValue>& constants = {}) {
   const std::string snippet = "#include \"lib/random.glsl\"\n" + body + R"(
 void evaluate(uint index) {
-  vec3 o = draw(random4(RandomKey(uvec2(index & 1023u, index >> 10u), 3u, 11u, 0u), 0u, kDimensionScatter));
+  vec3 o = draw(random4(RandomKey(uvec2(index & 1023u, index >> 10u), 3u, 11u, 0u, 1u), 0u, kDimensionScatter));
   outputs[3u * index] = o.x;
   outputs[3u * index + 1u] = o.y;
   outputs[3u * index + 2u] = o.z;

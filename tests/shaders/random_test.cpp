@@ -30,7 +30,7 @@ class Random : public DeviceTest {
 };
 
 constexpr uint32_t kCount = 1u << 16;
-const std::string kPixels = "RandomKey(uvec2(index & 255u, index >> 8u), 3u, 5u, 0u)";
+const std::string kPixels = "RandomKey(uvec2(index & 255u, index >> 8u), 3u, 5u, 0u, 1u)";
 
 TEST_F(Random, StaysBelowOne) {
   const std::vector<float> none(1);
@@ -62,11 +62,11 @@ TEST_F(Random, IsUniformInEachAndBetweenNumbers) {
 TEST_F(Random, EveryWordOfTheKeyMatters) {
   const std::vector<float> base = draw(kPixels, "1u, 1u", kCount);
   const std::vector<std::pair<std::string, std::string>> others = {
-      {"RandomKey(uvec2((index & 255u) + 1u, index >> 8u), 3u, 5u, 0u)", "1u, 1u"},
-      {"RandomKey(uvec2(index & 255u, (index >> 8u) + 1u), 3u, 5u, 0u)", "1u, 1u"},
-      {"RandomKey(uvec2(index & 255u, index >> 8u), 4u, 5u, 0u)", "1u, 1u"},
-      {"RandomKey(uvec2(index & 255u, index >> 8u), 3u, 6u, 0u)", "1u, 1u"},
-      {"RandomKey(uvec2(index & 255u, index >> 8u), 3u, 5u, 1u)", "1u, 1u"},
+      {"RandomKey(uvec2((index & 255u) + 1u, index >> 8u), 3u, 5u, 0u, 1u)", "1u, 1u"},
+      {"RandomKey(uvec2(index & 255u, (index >> 8u) + 1u), 3u, 5u, 0u, 1u)", "1u, 1u"},
+      {"RandomKey(uvec2(index & 255u, index >> 8u), 4u, 5u, 0u, 1u)", "1u, 1u"},
+      {"RandomKey(uvec2(index & 255u, index >> 8u), 3u, 6u, 0u, 1u)", "1u, 1u"},
+      {"RandomKey(uvec2(index & 255u, index >> 8u), 3u, 5u, 1u, 1u)", "1u, 1u"},
       {kPixels, "2u, 1u"},
       {kPixels, "1u, 0u"},
   };
@@ -85,11 +85,12 @@ TEST_F(Random, NeighboursInSpaceAndTimeAreNotCorrelated) {
   std::vector<Lag> lags;
   for (const char* step : {"1u", "2u", "7u", "8u", "64u"}) {
     const std::string s = step;
-    lags.push_back({"row", "RandomKey(uvec2((index & 255u) + " + s + ", index >> 8u), 3u, 5u, 0u)"});
-    lags.push_back({"column", "RandomKey(uvec2(index & 255u, (index >> 8u) + " + s + "), 3u, 5u, 0u)"});
-    lags.push_back({"diagonal", "RandomKey(uvec2((index & 255u) + " + s + ", (index >> 8u) + " + s + "), 3u, 5u, 0u)"});
-    lags.push_back({"frame", "RandomKey(uvec2(index & 255u, index >> 8u), 3u + " + s + ", 5u, 0u)"});
-    lags.push_back({"path", "RandomKey(uvec2(index & 255u, index >> 8u), 3u, 5u, " + s + ")"});
+    lags.push_back({"row", "RandomKey(uvec2((index & 255u) + " + s + ", index >> 8u), 3u, 5u, 0u, 1u)"});
+    lags.push_back({"column", "RandomKey(uvec2(index & 255u, (index >> 8u) + " + s + "), 3u, 5u, 0u, 1u)"});
+    lags.push_back(
+        {"diagonal", "RandomKey(uvec2((index & 255u) + " + s + ", (index >> 8u) + " + s + "), 3u, 5u, 0u, 1u)"});
+    lags.push_back({"frame", "RandomKey(uvec2(index & 255u, index >> 8u), 3u + " + s + ", 5u, 0u, 1u)"});
+    lags.push_back({"path", "RandomKey(uvec2(index & 255u, index >> 8u), 3u, 5u, " + s + ", 1u)"});
   }
   const std::vector<float> base = draw(kPixels, "0u, 1u", kCount);
   int beyond_two = 0;
@@ -105,9 +106,9 @@ TEST_F(Random, NeighboursInSpaceAndTimeAreNotCorrelated) {
 // The numbers that one pixel gets frame after frame, and path after path, fill the square: else its mean would be
 // wrong.
 TEST_F(Random, FirstPointsOfOnePixelFillTheSquare) {
-  const std::vector<std::string> sequences = {"RandomKey(uvec2(321u, 123u), index, 5u, 0u)",
-                                              "RandomKey(uvec2(321u, 123u), 0u, 5u, index)",
-                                              "RandomKey(uvec2(0u, 0u), index, 0u, 0u)"};
+  const std::vector<std::string> sequences = {"RandomKey(uvec2(321u, 123u), index, 5u, 0u, 1u)",
+                                              "RandomKey(uvec2(321u, 123u), 0u, 5u, index, 1u)",
+                                              "RandomKey(uvec2(0u, 0u), index, 0u, 0u, 1u)"};
   for (const std::string& key : sequences) {
     const std::vector<float> values = draw(key, "0u, 1u", 4096);
     for (int first = 0; first < 3; ++first) {

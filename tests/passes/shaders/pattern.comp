@@ -20,7 +20,7 @@ layout(push_constant) uniform Params {
 };
 
 vec3 value(ivec2 pixel, ivec2 size) {
-  if (pattern == 1u) return random4(RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u), 7u, 7u).xyz;
+  if (pattern == 1u) return random4(RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u, 1u), 7u, 7u).xyz;
   if (pattern == 2u) return pixel == size / 2 ? vec3(1.0) : vec3(0.0);
   if (pattern == 3u) return abs(texelFetch(surface_normal, pixel, 0).xyz);
   if (pattern == 4u) return texelFetch(surface_id, pixel, 0).x == 1u ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);

@@ -19,7 +19,7 @@ void main() {
   if (any(greaterThanEqual(pixel, size))) return;
   vec3 direction;
   float pdf;
-  vec4 u = random4(RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u), 0u, 7u);
+  vec4 u = random4(RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u, 1u), 0u, 7u);
   bool found = sample_environment(u, direction, pdf);
   imageStore(out_sampled, pixel, vec4(direction, pdf));
   vec3 radiance = environment_radiance(direction);

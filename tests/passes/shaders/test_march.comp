@@ -23,7 +23,7 @@ layout(push_constant) uniform Params {
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, imageSize(out_hit)))) return;
-  RandomKey key = RandomKey(uvec2(pixel), salt, 0u, 0u);
+  RandomKey key = RandomKey(uvec2(pixel), salt, 0u, 0u, 1u);
   vec3 size = vec3(textureSize(distance, 0));
   vec4 u = random4(key, 0u, 1u);
   int kind = (pixel.x + pixel.y) & 7;
