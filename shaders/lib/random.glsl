@@ -45,6 +45,7 @@ uvec4 even_bits(RandomKey key, uint bounce, uint dimension) {
   // Of no pixel and no path: that of the sequence. The pairs are shuffled by independent seeds, so that it does no harm
   // that those of their scrambling are not.
   uvec4 seeds = random_bits(RandomKey(uvec2(0u), key.frame, key.seed, 0xffffu, 0u), bounce, dimension);
+  seeds ^= seeds >> 16u;   // their lowest bits decide most
   uvec2 first = scrambled_point(index, seeds.xyz);
   uvec2 second = scrambled_point(index, uvec3(seeds.w, seeds.zy ^ 0x5bd1e995u));
   return uvec4(second.x, first, second.y);
