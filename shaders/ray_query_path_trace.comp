@@ -44,7 +44,7 @@ vec3 trace_incoming(PathVertex vertex, BsdfSample scatter, RandomKey key) {
     vertex = hit.vertex;
     PerLobe direct = direct_light(vertex, key, bounce);
     radiance += throughput * (direct.diffuse + direct.specular);
-    scatter = bsdf_sample(vertex.bsdf, vertex.incoming, random4(key, bounce, kDimensionScatter).xyz);
+    scatter = bsdf_sample(vertex.bsdf, vertex.incoming, path_random4(key, bounce, kDimensionScatter).xyz);
     throughput *= scatter.weight;
     if (throughput == vec3(0.0)) break;
   }
@@ -54,7 +54,7 @@ vec3 trace_incoming(PathVertex vertex, BsdfSample scatter, RandomKey key) {
 // Light that each lobe of the first hit scatters to the viewer.
 PerLobe trace_path(PathVertex first, RandomKey key) {
   PerLobe light = direct_light(first, key, 0u);
-  BsdfSample scatter = bsdf_sample(first.bsdf, first.incoming, random4(key, 0u, kDimensionScatter).xyz);
+  BsdfSample scatter = bsdf_sample(first.bsdf, first.incoming, path_random4(key, 0u, kDimensionScatter).xyz);
   if (scatter.weight == vec3(0.0)) return light;
   vec3 incoming = trace_incoming(first, scatter, key);
   light.diffuse += max(scatter.weight - scatter.specular_weight, vec3(0.0)) * incoming;

@@ -106,7 +106,7 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
     PerLobe direct = direct_light(grid, distance, voxels_normal, voxels_material, vertex, key, bounce);
     radiance += throughput * (direct.diffuse + direct.specular);
     if (bounce == bounces && !kRaysFindLight) break;
-    vec4 u = random4(key, bounce, kDimensionScatter);
+    vec4 u = path_random4(key, bounce, kDimensionScatter);
     scatter = bsdf_sample(vertex.bsdf, vertex.incoming, u.xyz);
     throughput *= scatter.weight;
     if (throughput == vec3(0.0) || !survives(bounce, u.w, throughput)) break;
@@ -118,7 +118,7 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
 PerLobe trace_path(Grid grid, PathVertex first, RandomKey key) {
   PerLobe light = direct_light(grid, distance, voxels_normal, voxels_material, first, key, 0u);
   if (bounces == 0u && !kRaysFindLight) return light;
-  BsdfSample scatter = bsdf_sample(first.bsdf, first.incoming, random4(key, 0u, kDimensionScatter).xyz);
+  BsdfSample scatter = bsdf_sample(first.bsdf, first.incoming, path_random4(key, 0u, kDimensionScatter).xyz);
   if (scatter.weight == vec3(0.0)) return light;
   vec3 incoming = trace_incoming(grid, first, scatter, key);
   light.diffuse += max(scatter.weight - scatter.specular_weight, vec3(0.0)) * incoming;

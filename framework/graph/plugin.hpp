@@ -8,7 +8,7 @@
 namespace lightloom {
 
 /// Raised when the meaning of what crosses between the program and a plug-in changes without a change of its layout.
-constexpr uint64_t kPluginRevision = 1;
+constexpr uint64_t kPluginRevision = 2;
 
 /// What both sides must agree on, as one number: the layout of the tables, the compiler's and the standard library's
 /// binary interface. Made by who compiles, so it tells whether the two sides were compiled against the same headers.

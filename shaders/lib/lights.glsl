@@ -5,8 +5,8 @@
 
 #include "lib/emitters.glsl"
 #include "lib/environment_light.glsl"
+#include "lib/path_random.glsl"
 #include "lib/punctual.glsl"
-#include "lib/random.glsl"
 #include "lib/sun.glsl"
 
 // What is left of a sample of light from far away.
@@ -29,11 +29,11 @@ PerLobe punctual_light(Grid grid, texture3D distance_field, texture3D materials,
 // Direct light that each lobe reflects at vertex `bounce` of a path.
 PerLobe direct_light(Grid grid, texture3D distance_field, texture3D normals, texture3D materials, PathVertex vertex,
                      RandomKey key, uint bounce) {
-  vec4 u = random4(key, bounce, kDimensionLight);
+  vec4 u = path_random4(key, bounce, kDimensionLight);
   PerLobe light = emitter_light(grid, distance_field, normals, materials, vertex, key, bounce, u.x);
   light = sum_of(light, distant_light(distance_field, vertex, sun_sample(vertex, u.yz)));
   if (environment_sampled()) {
-    LightSample sky = environment_sample(vertex, random4(key, bounce, kDimensionEnvironment));
+    LightSample sky = environment_sample(vertex, path_random4(key, bounce, kDimensionEnvironment));
     light = sum_of(light, distant_light(distance_field, vertex, sky));
   }
   return sum_of(light, punctual_light(grid, distance_field, materials, vertex, u.w));

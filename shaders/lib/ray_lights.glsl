@@ -4,8 +4,8 @@
 
 #include "lib/environment_light.glsl"
 #include "lib/hints.glsl"
+#include "lib/path_random.glsl"
 #include "lib/punctual.glsl"
-#include "lib/random.glsl"
 #include "lib/ray_vertex.glsl"
 #include "lib/sun.glsl"
 
@@ -53,11 +53,11 @@ PerLobe punctual_light(PathVertex vertex, float u) {
 
 // Direct light that each lobe reflects at vertex `bounce` of a path.
 PerLobe direct_light(PathVertex vertex, RandomKey key, uint bounce) {
-  vec4 u = random4(key, bounce, kDimensionLight);
+  vec4 u = path_random4(key, bounce, kDimensionLight);
   PerLobe light = emitter_light(vertex, u.x);
   light = sum_of(light, distant_light(vertex, sun_sample(vertex, u.yz)));
   if (environment_sampled()) {
-    LightSample sky = environment_sample(vertex, random4(key, bounce, kDimensionEnvironment));
+    LightSample sky = environment_sample(vertex, path_random4(key, bounce, kDimensionEnvironment));
     light = sum_of(light, distant_light(vertex, sky));
   }
   return sum_of(light, punctual_light(vertex, u.w));

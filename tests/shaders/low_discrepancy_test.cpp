@@ -1,4 +1,4 @@
-// Numbers that are even over paths and pixels: shaders/lib/low_discrepancy.glsl and random.glsl.
+// Numbers that are even over paths and pixels: shaders/lib/low_discrepancy.glsl and path_random.glsl.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ class LowDiscrepancy : public DeviceTest {
   /// Four numbers for each of `count` keys, an expression of `index`.
   static std::vector<float> draw(const std::string& key, uint32_t count) {
     const std::string body =
-        "#include \"lib/random.glsl\"\nvoid evaluate(uint index) { vec4 r = uniform_floats(even_bits(" + key +
+        "#include \"lib/path_random.glsl\"\nvoid evaluate(uint index) { vec4 r = uniform_floats(even_bits(" + key +
         ", 1u, 2u)); for (uint k = 0u; k < 4u; ++k) outputs[4u * index + k] = r[k]; }";
     const std::vector<float> none(1);
     return run_snippet(device(), body, none, 4 * size_t{count}, count);

@@ -45,7 +45,7 @@ void main() {
     vec3 face_normal = normalize(texelFetch(surface_geometric_normal, pixel, 0).xyz);
     vec3 origin = world_to_grid(grid, position.xyz) + face_normal * start_offset(face_normal);
     LocalFrame around = make_frame(normal, vec3(normal.y, normal.z, normal.x));
-    RandomKey key = RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u);
+    RandomKey key = RandomKey(uvec2(pixel), frame.ids.x, frame.ids.y, 0u, paths);
     for (key.path = 0u; key.path < paths; ++key.path) {
       vec3 direction = ray_direction(around, random4(key, 0u, kDimensionScatter).xy);
       if (dot(direction, face_normal) > 0.0 && reaches_sky(origin, direction)) light += environment_radiance(direction);
