@@ -10,6 +10,7 @@ import os
 from curves import cost_at_error, digits, markdown, median
 
 REFERENCE_SEED = 1000
+STEADY_FRAMES = 6  # of a run at the least whose later frames are timed
 
 
 def reference_of_lightloom(peers, say):
@@ -67,10 +68,10 @@ def cycles_point(peers, samples, reference):
 
 
 def lightloom_times(peers, index, frames, options):
-    """Steady seconds of a frame, and wall seconds of the program that makes so many, all written."""
+    """Steady seconds of a frame, and wall seconds of the program that makes so many and writes the last."""
     out = peers.out(f"lightloom_{index}")
-    steady = peers.lightloom.render("lightloom.json", max(frames, 3), out, options)
-    run = steady if frames >= 3 else peers.lightloom.render("lightloom.json", frames, out, options)
+    steady = peers.lightloom.render("lightloom.json", max(frames, STEADY_FRAMES), out, options)
+    run = steady if frames >= STEADY_FRAMES else peers.lightloom.render("lightloom.json", frames, out, options)
     return median(steady["later"]), run["wall"]
 
 

@@ -48,11 +48,12 @@ class Lightloom:
         self.scene, self.camera, self.size = os.path.join(folder, "scene.scene.json"), camera, size
 
     def render(self, graph, frames, out, options=(), scene=None):
-        """First frame and median of the later ones [s], wall time of the whole program [s]."""
+        """Seconds of the first frame and of the later ones, and of the whole program. The last frame is written, after
+        its time: like Blender's operator and Embree's benchmark, frames are not timed beside the writing of files."""
         size = f"{self.size[0]}x{self.size[1]}"
         command = [self.program, "render", os.path.join(self.root, "graphs", graph), "--scene", scene or self.scene]
         command += ["--camera", self.camera, "--size", size, "--trace-size", size, "--frames", f"0..{frames - 1}"]
-        command += ["--no-times", "--out", out, *options]
+        command += ["--output-frames", str(frames - 1), "--no-times", "--out", out, *options]
         _, wall = run_program(command)
         with open(os.path.join(out, "run.json"), encoding="utf-8") as file:
             times = json.load(file)["frame_wall_ms"]["frames"]
