@@ -54,9 +54,10 @@ std::optional<Extent3> ShapeResolver::extent_of(const ImageRef& image) {
     rule = {known->second.extent, std::nullopt};
   }
   std::optional<Extent3> extent = rule.extent;
-  for (auto at = alike.rbegin(); at != alike.rend(); ++at) {
-    extent = multiplied(extent, at->second);
-    known_[at->first] = {false, extent};
+  for (; !alike.empty(); alike.pop_back()) {
+    const auto& [port, times] = alike.back();
+    extent = multiplied(extent, times);
+    known_[port] = {false, extent};
   }
   return extent;
 }
