@@ -6,17 +6,16 @@
 namespace lightloom::linking {
 namespace {
 
-/// What an option asks for instead of the graph's own size.
-Extent3 wanted_size(const SizeSpec& own, const std::optional<std::pair<uint32_t, uint32_t>>& wanted, const char* option,
-                    Report& report) {
-  if (!wanted) return {own.width, own.height, 1};
-  const auto [width, height] = *wanted;
+bool can_be(const std::pair<uint32_t, uint32_t>& size) {
   const auto valid = [](uint32_t length) { return length >= 1 && length <= kMaximumImageSize; };
-  if (valid(width) && valid(height)) return {width, height, 1};
+  return valid(size.first) && valid(size.second);
+}
+
+void check_size(const std::optional<std::pair<uint32_t, uint32_t>>& wanted, const char* option, Report& report) {
+  if (!wanted || can_be(*wanted)) return;
   report.error("out-of-range", {option, 0, 0},
                "an image must be 1 to " + std::to_string(kMaximumImageSize) + " pixels wide and high, not " +
-                   std::to_string(width) + "x" + std::to_string(height));
-  return {own.width, own.height, 1};
+                   std::to_string(wanted->first) + "x" + std::to_string(wanted->second));
 }
 
 std::optional<Extent3> multiplied(const std::optional<Extent3>& extent, const Extent3& times) {
@@ -26,6 +25,11 @@ std::optional<Extent3> multiplied(const std::optional<Extent3>& extent, const Ex
 
 }  // namespace
 
+Extent3 wanted_size(const SizeSpec& own, const std::optional<std::pair<uint32_t, uint32_t>>& wanted) {
+  if (wanted && can_be(*wanted)) return {wanted->first, wanted->second, 1};
+  return {own.width, own.height, 1};
+}
+
 ShapeResolver::ShapeResolver(const Nodes& nodes, const Wiring& wiring, EdgeResolver& edges, const Input& input,
                              Report& report)
     : nodes_(nodes),
@@ -33,8 +37,11 @@ ShapeResolver::ShapeResolver(const Nodes& nodes, const Wiring& wiring, EdgeResol
       edges_(edges),
       input_(input),
       report_(report),
-      view_(wanted_size(input.spec.view, input.options.view, "--size", report)),
-      trace_(wanted_size(input.spec.trace, input.options.trace, "--trace-size", report)) {}
+      view_(wanted_size(input.spec.view, input.options.view)),
+      trace_(wanted_size(input.spec.trace, input.options.trace)) {
+  check_size(input.options.view, "--size", report);
+  check_size(input.options.trace, "--trace-size", report);
+}
 
 std::optional<Extent3> ShapeResolver::extent_of(const ImageRef& image) {
   std::vector<std::pair<ImageRef, Extent3>> alike;  // each has so often the size of the next

@@ -204,6 +204,9 @@ class EdgeResolver {
 /// link_cycles.cpp: reports cycles over edges without '@'. True if there are none.
 [[nodiscard]] bool check_cycles(const Nodes& nodes, const Wiring& wiring, Report& report);
 
+/// link_shapes.cpp: the size that an option asks for, if there can be such an image; else the graph's own.
+[[nodiscard]] Extent3 wanted_size(const SizeSpec& own, const std::optional<std::pair<uint32_t, uint32_t>>& wanted);
+
 /// link_shapes.cpp: extents by rule, and whether connected images fit.
 class ShapeResolver {
  public:

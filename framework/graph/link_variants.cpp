@@ -194,10 +194,7 @@ void check_declared(const Node& node, Report& report) {
 
 /// Is the trace of another size than the view, where passes between the two have something to do?
 bool sizes_differ(const Input& input) {
-  const auto size = [](const SizeSpec& own, const std::optional<std::pair<uint32_t, uint32_t>>& wanted) {
-    return wanted.value_or(std::pair{own.width, own.height});
-  };
-  return size(input.spec.view, input.options.view) != size(input.spec.trace, input.options.trace);
+  return wanted_size(input.spec.view, input.options.view) != wanted_size(input.spec.trace, input.options.trace);
 }
 
 /// Whether a condition holds, without its '!'; reports one that there is not.

@@ -27,16 +27,21 @@ TEST(When, SizesDiffer) {
     const std::string text = file(kSource + R"(, "f": {"type": "filter", "in": {"x": "s.a"}, "when": ")" +
                                       (negated ? "!" : "") + R"(sizes.differ"})",
                                   R"("o": "f.a")");
-    const auto has_filter = [&](uint32_t width, uint32_t height) {
+    using Size = std::optional<std::pair<uint32_t, uint32_t>>;
+    const auto has_filter = [&](const Size& view, const Size& trace) {
       LinkOptions options;
-      options.view = {64, 48};
-      options.trace = {width, height};
+      options.view = view;
+      options.trace = trace;
       const Graph graph = graph_of(text, options);
       return std::any_of(graph.passes.begin(), graph.passes.end(), [](const GraphPass& p) { return p.name == "f"; });
     };
-    EXPECT_EQ(has_filter(64, 48), negated);
-    EXPECT_EQ(has_filter(32, 48), !negated);
-    EXPECT_EQ(has_filter(64, 24), !negated);
+    EXPECT_EQ(has_filter({{64, 48}}, {{64, 48}}), negated);
+    EXPECT_EQ(has_filter({{64, 48}}, {{32, 48}}), !negated);
+    EXPECT_EQ(has_filter({{64, 48}}, {{64, 24}}), !negated);
+    // The file says 64x48 and 32x24.
+    EXPECT_EQ(has_filter({}, {}), !negated);
+    EXPECT_EQ(has_filter({}, {{64, 48}}), negated);
+    EXPECT_EQ(has_filter({{32, 24}}, {}), negated);
   }
 }
 
