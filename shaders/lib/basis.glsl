@@ -2,6 +2,8 @@
 #ifndef LIGHTLOOM_LIB_BASIS
 #define LIGHTLOOM_LIB_BASIS
 
+#include "lib/finite.glsl"
+
 // Two unit vectors that form a right-handed frame (x, y, normal) with a unit normal. No direction is singular.
 // Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1).
 void orthonormal_basis(vec3 normal, out vec3 x, out vec3 y) {
@@ -15,7 +17,8 @@ void orthonormal_basis(vec3 normal, out vec3 x, out vec3 y) {
 // Normalised, or `otherwise` where the length is 0 or not finite.
 vec3 safe_normalize(vec3 v, vec3 otherwise) {
   float size = max(abs(v.x), max(abs(v.y), abs(v.z)));
-  if (!(size > 1e-30 && size < 1e30)) return otherwise;
+  // A largest of several may leave out those that are NaN.
+  if (!is_finite(v) || !(size > 1e-30 && size < 1e30)) return otherwise;
   return normalize(v / size);
 }
 

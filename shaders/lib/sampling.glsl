@@ -3,6 +3,7 @@
 #define LIGHTLOOM_LIB_SAMPLING
 
 #include "lib/basis.glsl"
+#include "lib/finite.glsl"
 
 // Right-handed basis around a unit normal.
 struct LocalFrame {
@@ -46,9 +47,5 @@ vec3 sample_cone(vec3 axis, float one_minus_cosine, vec2 u) {
   LocalFrame around = make_frame(axis, vec3(axis.y, axis.z, axis.x));
   return normalize(to_world(around, vec3(radius * cos(phi), radius * sin(phi), 1.0 - drop)));
 }
-
-// No bit pattern of infinity or NaN; a comparison could be optimised away.
-bool is_finite(float x) { return (floatBitsToUint(x) & 0x7F800000u) != 0x7F800000u; }
-bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
 #endif

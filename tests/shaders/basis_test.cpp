@@ -62,8 +62,8 @@ TEST_F(BasisTest, OrthogonalTangentKeepsTheTangentWhereItCanAndIsNeverNaN) {
     glm::vec3 expected;  // zero: any vector orthogonal to z
   };
   const std::vector<Case> cases = {
-      {{3, 0, 7}, {1, 0, 0}}, {{0, -2, 0}, {0, -1, 0}},   {{0, 0, 1}, {}}, {{0, 0, 0}, {}}, {{nan, 0, 0}, {}},
-      {{0, 0, -1e20f}, {}},   {{1e-12f, 0, 0}, {1, 0, 0}}};
+      {{3, 0, 7}, {1, 0, 0}}, {{0, -2, 0}, {0, -1, 0}},    {{0, 0, 1}, {}},   {{0, 0, 0}, {}},   {{nan, 0, 0}, {}},
+      {{0, 0, -1e20f}, {}},   {{1e-12f, 0, 0}, {1, 0, 0}}, {{nan, 1, 0}, {}}, {{1, nan, 0}, {}}, {{0, 1, nan}, {}}};
   std::vector<float> inputs;
   for (const Case& c : cases) inputs.insert(inputs.end(), {c.tangent.x, c.tangent.y, c.tangent.z});
   const std::string body = R"(

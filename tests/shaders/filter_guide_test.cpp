@@ -132,28 +132,5 @@ TEST_F(FilterGuide, StandsTheExtremes) {
   EXPECT_EQ(round_trip({Guide{}})[0].position[0], 0);
 }
 
-TEST_F(FilterGuide, PackedSurfacesKeep24BitsOfIdsBesideTheirPoint) {
-  const std::vector<float> ids = {1, 0, 1, 255, 0xFFFFFF, 256, 7, 65535, 8, 65536, 9, 0xFFFFFF, 0xABCDEF, 0x123456};
-  const auto count = static_cast<uint32_t>(ids.size() / 2);
-  const std::vector<float> out = run_snippet(device(), R"(
-#include "lib/packed_surface.glsl"
-void evaluate(uint index) {
-  SurfacePoint point = SurfacePoint(vec3(0.0, -0.6, -0.8), vec3(-3.0, 2.0, 5.0));
-  PackedSurface back = unpack_surface(pack_surface(
-      PackedSurface(uint(inputs[2u * index]) + kPackedIds, uint(inputs[2u * index + 1u]) + 3u * kPackedIds, point)));
-  outputs[4u * index] = float(back.object);
-  outputs[4u * index + 1u] = float(back.material);
-  outputs[4u * index + 2u] = back.point.normal.z;
-  outputs[4u * index + 3u] = back.point.position.x;
-})",
-                                             ids, 4 * count, count);
-  for (uint32_t i = 0; i < count; ++i) {
-    EXPECT_EQ(out[4 * i], ids[2 * i]);
-    EXPECT_EQ(out[4 * i + 1], ids[2 * i + 1]);
-    EXPECT_NEAR(out[4 * i + 2], -0.8, 0.001);
-    EXPECT_NEAR(out[4 * i + 3], -3, 5.0 / 32768);
-  }
-}
-
 }  // namespace
 }  // namespace lightloom::test
