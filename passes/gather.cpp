@@ -71,7 +71,9 @@ PassType make_gather() {
       "voxels are too coarse for the first hit. What is drawn is which triangle each pixel shows; the surface is then "
       "computed once a pixel, where the ray through its centre meets that triangle. Alpha-masked texels are cut out; "
       "the back of a single-sided material "
-      "is not seen; a double-sided one is turned to the viewer.";
+      "is not seen; a double-sided one is turned to the viewer. Of triangles at equal depth an alpha-masked one is "
+      "seen "
+      "before one without a mask, and else the later one in the scene.";
   type.ports = {surface_output(), motion_output(), visibility_scratch(), depth_scratch()};
   type.reads = FrameState::camera | FrameState::static_geometry | FrameState::dynamic_geometry | FrameState::materials;
   type.record = record;

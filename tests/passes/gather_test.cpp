@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/passes/gather_support.hpp"
 #include "tests/passes/voxel_support.hpp"
 #include "tests/support/device_fixture.hpp"
 
@@ -10,44 +11,6 @@ namespace lightloom::test {
 namespace {
 
 using GatherTest = DeviceTest;
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
-constexpr float kFieldOfView = 0.8f;
-constexpr uint32_t kX = 0, kY = 1, kZ = 2, kW = 3;
-
-Images gather(const scene::Scene& scene) {
-  return run_passes(R"("g": { "type": "gather" })", "g.surface.position", scene);
-}
-
-glm::dvec4 texel(const Images& images, const std::string& part, int x, int y) {
-  const image::HostImage& image = images.at("g.surface." + part);
-  const auto at = [&](uint32_t channel) {
-    return image.at(static_cast<uint32_t>(x), static_cast<uint32_t>(y), 0, channel);
-  };
-  if (part == "id") return {at(kX), at(kY), 0, 0};
-  return {at(kX), at(kY), at(kZ), at(kW)};
-}
-
-glm::dvec3 direction(const Images& images, const std::string& part, int x, int y) {
-  return glm::dvec3(texel(images, part, x, y));
-}
-
-/// Where the ray through a pixel's centre, from (0,0,distance) along -z, meets the plane z = 0 turned by `slope` in x.
-glm::dvec3 on_plane(int x, int y, double distance, double slope) {
-  const double half = std::tan(kFieldOfView / 2);
-  const glm::dvec3 ray((2 * (x + 0.5) / kWidth - 1) * half * kWidth / kHeight, (1 - 2 * (y + 0.5) / kHeight) * half,
-                       -1);
-  const double t = distance / (1 + slope * ray.x);  // z = slope * x
-  return glm::dvec3(0, 0, distance) + t * ray;
-}
-
-scene::Camera front_camera(float distance) {
-  return look_at({0, 0, distance}, {0, 0, 0}, kFieldOfView);
-}
-
-QuadSpec facing_quad(float z, float half_width, float half_height, uint32_t material = 0) {
-  return {{-half_width, -half_height, z}, {2 * half_width, 0, 0}, {0, 2 * half_height, 0}, material};
-}
 
 void expect_direction(const glm::dvec3& got, const glm::dvec3& expected) {
   EXPECT_LT(glm::distance(got, expected), 2e-3) << got.x << ' ' << got.y << ' ' << got.z;
@@ -59,8 +22,8 @@ TEST_F(GatherTest, PositionsNormalsAndDepthsOfASlantedPlaneAreAnalytic) {
   const scene::Scene scene = make_quad_scene({quad}, {plain({0.25f, 0.5f, 0.75f})}, front_camera(5));
   const Images images = gather(scene);
   const glm::dvec3 normal = glm::normalize(glm::dvec3(-kSlope, 0, 1));
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kViewHeight; ++y) {
+    for (int x = 0; x < kViewWidth; ++x) {
       const glm::dvec3 expected = on_plane(x, y, 5, kSlope);
       const glm::dvec4 position = texel(images, "position", x, y);
       ASSERT_LT(glm::distance(glm::dvec3(position), expected), 1e-4) << x << ' ' << y;
@@ -113,8 +76,8 @@ TEST_F(GatherTest, TheNearerSurfaceIsSeenWhateverTheOrder) {
   const QuadSpec far = facing_quad(0, 1, 0.7f, 1);
   for (const auto& quads : {std::vector<QuadSpec>{near, far}, std::vector<QuadSpec>{far, near}}) {
     const Images images = gather(make_quad_scene(quads, materials, front_camera(3)));
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kViewHeight; ++y) {
+      for (int x = 0; x < kViewWidth; ++x) {
         const glm::dvec3 at_near = on_plane(x, y, 2, 0);
         const glm::dvec3 at_far = on_plane(x, y, 3, 0);
         const bool sees_near = std::max(std::abs(at_near.x), std::abs(at_near.y)) < 0.4;
@@ -145,106 +108,6 @@ TEST_F(GatherTest, ABackIsUnseenUnlessDoubleSidedAndThenTurned) {
   // The tangent stays, so the bitangent's sign turns with the normal.
   expect_direction(direction(images, "tangent", 32, 24), {-1, 0, 0});
   EXPECT_EQ(texel(images, "tangent", 32, 24)[kW], -1);
-}
-
-/// A quad in front of the camera with an image on it, u to the right, v upwards, and a second quad behind it.
-scene::Scene textured_scene(const scene::Image& image, bool mask) {
-  scene::Material front = plain(glm::vec3(1));
-  front.base_color_texture.image = 0;
-  front.alpha_mode = mask ? scene::AlphaMode::mask : scene::AlphaMode::opaque;
-  scene::Scene scene =
-      make_quad_scene({facing_quad(0, 1, 1), facing_quad(-1, 3, 3, 1)}, {front, plain({0, 0, 1})}, front_camera(3));
-  scene.images = {image};
-  scene.features.textured = true;
-  scene.features.alpha = mask;
-  return scene;
-}
-
-TEST_F(GatherTest, RowZeroOfAnImageIsAtVZero) {
-  const scene::Image image = make_image(64, 64, [](uint32_t x, uint32_t y) {
-    return std::array<uint8_t, 4>{uint8_t(x < 32 ? 255 : 0), uint8_t(y < 32 ? 255 : 0), 0, 255};
-  });
-  const Images images = gather(textured_scene(image, false));
-  // v grows upwards on this quad, so the image stands on its head.
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const glm::dvec3 at = on_plane(x, y, 3, 0);
-      const double border = std::min(std::abs(at.x), std::abs(at.y));
-      if (std::max(std::abs(at.x), std::abs(at.y)) > 0.95 || border < 0.1) continue;
-      EXPECT_NEAR(texel(images, "albedo", x, y)[kX], at.x < 0 ? 1 : 0, 1e-3) << x << ' ' << y;
-      EXPECT_NEAR(texel(images, "albedo", x, y)[kY], at.y < 0 ? 1 : 0, 1e-3) << x << ' ' << y;
-    }
-  }
-}
-
-TEST_F(GatherTest, ThroughCutOutTexelsOneSeesWhatLiesBehind) {
-  const scene::Image image = make_image(64, 64, [](uint32_t x, uint32_t) {
-    return std::array<uint8_t, 4>{255, 255, 255, uint8_t(x < 32 ? 255 : 0)};
-  });
-  for (const bool mask : {true, false}) {
-    const Images images = gather(textured_scene(image, mask));
-    for (int x = 0; x < kWidth; ++x) {
-      const glm::dvec3 at = on_plane(x, 24, 3, 0);
-      if (std::abs(at.x) > 0.95 || std::abs(at.x) < 0.1) continue;
-      const bool sees_front = !mask || at.x < 0;
-      EXPECT_EQ(texel(images, "id", x, 24)[kY], sees_front ? 0 : 1) << x;
-      EXPECT_NEAR(texel(images, "position", x, 24)[kZ], sees_front ? 0 : -1, 1e-4) << x;
-    }
-  }
-}
-
-TEST_F(GatherTest, AFineTextureFarAwayIsItsMean) {
-  // About ten texels a pixel; the mean of black and white in linear light is 1/2.
-  const scene::Image checker = make_image(256, 256, [](uint32_t x, uint32_t y) {
-    const auto value = uint8_t((x + y) % 2 * 255);
-    return std::array<uint8_t, 4>{value, value, value, 255};
-  });
-  const Images images = gather(textured_scene(checker, false));
-  for (int x = 26; x < 38; ++x) EXPECT_NEAR(texel(images, "albedo", x, 24)[kX], 0.5, 0.01) << x;
-}
-
-/// Texel coordinate that glTF's wrap modes give, of `size` texels.
-int wrapped(int i, scene::Wrap wrap, int size) {
-  if (wrap == scene::Wrap::clamp) return std::clamp(i, 0, size - 1);
-  const int period = wrap == scene::Wrap::mirror ? 2 * size : size;
-  const int r = ((i % period) + period) % period;
-  return r < size ? r : period - 1 - r;
-}
-
-TEST_F(GatherTest, TextureUsesHaveTheirTransformTheirWrapModesAndTheirCoordinates) {
-  // The three channels are the bits of the texel's place in the image of 4 x 2.
-  const scene::Image code = make_image(4, 2, [](uint32_t x, uint32_t y) {
-    return std::array<uint8_t, 4>{uint8_t(x % 2 * 255), uint8_t(x / 2 * 255), uint8_t(y * 255), 255};
-  });
-  using Wraps = std::pair<scene::Wrap, scene::Wrap>;
-  for (const Wraps& wraps :
-       {Wraps{scene::Wrap::repeat, scene::Wrap::mirror}, Wraps{scene::Wrap::mirror, scene::Wrap::clamp},
-        Wraps{scene::Wrap::clamp, scene::Wrap::repeat}}) {
-    scene::Scene scene = textured_scene(code, false);
-    scene::TextureUse& use = scene.materials[0].base_color_texture;
-    use.nearest = true;
-    use.texcoord = 1;
-    use.wrap_u = wraps.first;
-    use.wrap_v = wraps.second;
-    use.linear_transform = glm::mat2(2.0f, 0.5f, -0.5f, 3.0f);
-    use.offset = {-0.3f, -0.7f};
-    for (scene::Vertex& vertex : scene.vertices) vertex.uv1 = {vertex.u0 + 0.1f, vertex.v0 * 0.5f};
-    const Images images = gather(scene);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        const glm::dvec3 at = on_plane(x, y, 3, 0);
-        if (std::max(std::abs(at.x), std::abs(at.y)) > 0.95) continue;
-        const glm::dvec2 uv((at.x + 1) / 2 + 0.1, (at.y + 1) / 4);
-        const glm::dvec2 moved = glm::dmat2(use.linear_transform) * uv + glm::dvec2(use.offset);
-        const glm::dvec2 texels(moved.x * 4, moved.y * 2);
-        const glm::dvec2 from_border = glm::abs(texels - glm::round(texels));
-        if (std::min(from_border.x, from_border.y) < 1e-3) continue;
-        const int i = wrapped(static_cast<int>(std::floor(texels.x)), wraps.first, 4);
-        const int j = wrapped(static_cast<int>(std::floor(texels.y)), wraps.second, 2);
-        ASSERT_EQ(texel(images, "albedo", x, y), glm::dvec4(i % 2, i / 2, j, 0)) << x << ' ' << y;
-      }
-    }
-  }
 }
 
 TEST_F(GatherTest, VertexColoursMultiplyTheBaseColour) {
@@ -291,8 +154,8 @@ TEST_F(GatherTest, TheIdNamesTheTriangleAndThePlaceOnIt) {
   const Images images = gather(scene);
   const image::HostImage& ids = images.at("g.surface.id");
   std::array<int, 2> seen{};
-  for (uint32_t y = 0; y < kHeight; ++y) {
-    for (uint32_t x = 0; x < kWidth; ++x) {
+  for (uint32_t y = 0; y < kViewHeight; ++y) {
+    for (uint32_t x = 0; x < kViewWidth; ++x) {
       if (ids.at(x, y, 0, kX) == 0) continue;
       const auto index = static_cast<size_t>(ids.at(x, y, 0, kZ));
       ASSERT_LT(index, triangles.size());
@@ -316,8 +179,8 @@ TEST_F(GatherTest, AnOrthographicCameraSeesParallelRays) {
   const QuadSpec quad = {{-8, -8, -4}, {16, 0, 8}, {0, 16, 0}, 0};
   const Images images = gather(make_quad_scene({quad}, {plain(glm::vec3(1))}, camera));
   const double depth_of_left = texel(images, "position", 0, 0)[kW];
-  for (int x = 0; x < kWidth; ++x) {
-    const double expected_x = (2 * (x + 0.5) / kWidth - 1) * 2 * kWidth / kHeight;
+  for (int x = 0; x < kViewWidth; ++x) {
+    const double expected_x = (2 * (x + 0.5) / kViewWidth - 1) * 2 * kViewWidth / kViewHeight;
     const glm::dvec4 position = texel(images, "position", x, 7);
     EXPECT_NEAR(position[kX], expected_x, 1e-4);
     EXPECT_NEAR(position[kZ], 0.5 * expected_x, 1e-3);
