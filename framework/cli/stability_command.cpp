@@ -67,8 +67,8 @@ std::vector<Outcome> run_all(const std::vector<const Check*>& checks, stability:
 /// The table as a document with its title and the command that makes it.
 std::string document_of(const std::string& table) {
   return "# Stability\n\nMade by `lightloom stability --slow --validate --markdown`; do not edit. Each row is an "
-         "extreme, measured on\nthe device named below by the graphs that ship or parts of them; `ctest -L stability` "
-         "runs the same.\n\n" +
+         "extreme, measured on\nthe device named below by the graphs that ship or parts of them; "
+         "`ctest -R '^stability'` runs the same.\n\n" +
          table;
 }
 
