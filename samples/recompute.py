@@ -4,10 +4,11 @@
     lightloom render GRAPH --scene SCENE --frames 0..9 --dump '*' --dump-format npy --out DIR
     samples/recompute.py DIR [--frame N]
 
-Each distance_transform, temporal_accumulate and box_blur (without `variance`) of the run is computed again, for one
-frame (the last unless told otherwise), from what it read, by the formulas of docs/buffers.md and docs/denoiser.md;
-nothing of Lightloom is used. Exit status: 0 if all agree to 1e-5 (distances exactly), 1 if not, 2 if the run folder
-lacks something.
+Each distance_transform, temporal_accumulate, box_blur (without `variance` and `guide`), modulate and tonemap of the run
+is computed again, for one frame (the last unless told otherwise), from what it read, by the formulas of docs/buffers.md
+and docs/denoiser.md; nothing of Lightloom is used. What a frame's environment is no dump says, so the background of
+modulate is taken as it is. Exit status: 0 if all agree to 1e-5 (distances and pictures exactly), 1 if not, 2 if the run
+folder lacks something.
 
 Shaders compute in 32 bits, in an order that a compiler may choose. So a test like "is the cosine at least 0.9" may go
 either way where rounding decides. Such pixels are found by a bound on the rounding error, and of the few results that
@@ -23,7 +24,10 @@ import numpy as np
 
 TOLERANCE = 1e-5
 ROUNDING = 2.0 ** -21  # relative error of a sum of four products in 32 bits, with room to spare
+ENCODING_ERROR = 2.0 ** -17  # of sRGB's power in 32 bits, which devices may take by a logarithm
 MOST_DOUBTFUL = 0.05
+LEAST_COSINE = 0.02  # to which a shading normal that faces away is turned
+MODULATION_FLOOR = 0.001
 
 
 class Missing(Exception):
@@ -112,18 +116,29 @@ def luminance(rgb):
 # --- What surfaces reflect, and how rough the filters take them to be ------------------------------------------------
 
 
-def specular_share(run, albedo, material, cosine):
-    """Specular part of the luminance of what a surface reflects to the viewer."""
-    if not run.record["scene"]["features"]["specular"]:
-        return np.zeros(cosine.shape)
+def reflected_shares(run, albedo, material, cosine):
+    """What part of even light a surface reflects to the viewer: diffuse and specular, each as a colour."""
     base, metallic = albedo[..., :3], albedo[..., 3:]
     f0, f90 = material[..., 2:3], material[..., 3:4]
     grazing = np.clip(1 - cosine, 0, 1)[..., None] ** 5
     dielectric = f0 + (f90 - f0) * grazing
+    diffuse = base * (1 - metallic) * (1 - dielectric)
+    if not run.record["scene"]["features"]["specular"]:
+        return diffuse, np.zeros(diffuse.shape)
     metal = base + (1 - base) * grazing
-    specular = luminance(dielectric * (1 - metallic) + metal * metallic)
-    total = specular + luminance(base * (1 - metallic) * (1 - dielectric))
-    return np.divide(specular, total, out=np.zeros(total.shape), where=total > 0)
+    return diffuse, dielectric * (1 - metallic) + metal * metallic
+
+
+def specular_share(run, albedo, material, cosine):
+    """Specular part of the luminance of what a surface reflects to the viewer."""
+    diffuse, specular = reflected_shares(run, albedo, material, cosine)
+    part, total = luminance(specular), luminance(diffuse + specular)
+    return np.divide(part, total, out=np.zeros(total.shape), where=total > 0)
+
+
+def direction_to_viewer(position, eye):
+    offset = np.array(eye[:3]) - position * eye[3]
+    return offset / length(offset)[..., None]
 
 
 def filter_roughness(stage, eye):
@@ -134,9 +149,8 @@ def filter_roughness(stage, eye):
         return np.ones(position.shape[:2] + (2,))
     share = np.ones(position.shape[:2])
     if stage.params["lobe"] == "both":
-        to_viewer = eye[:3] - position * eye[3]
         with np.errstate(invalid="ignore", divide="ignore"):
-            cosine = dot(normal, to_viewer) / length(to_viewer)
+            cosine = dot(normal, direction_to_viewer(position, eye))
         share = specular_share(stage.run, albedo, material, cosine)
     weight = (share ** 4)[..., None]
     return 1 - weight + np.clip(material[..., :2], 0, 1) * weight
@@ -309,8 +323,7 @@ class EarlierFrame:
             decision &= Decision.certain(np.all(self.ids[y, x][..., :2] == ids[..., :2], axis=-1))
         decision &= Decision.at_least(dot(self.normal[y, x], normal), self.params["normal_threshold"], 8 * ROUNDING)
         eye = np.array(self.view["eye"])
-        to_viewer = eye[:3] - position * eye[3]
-        slant = np.maximum(np.abs(dot(normal, to_viewer)) / length(to_viewer), 0.05)
+        slant = np.maximum(np.abs(dot(normal, direction_to_viewer(position, eye))), 0.05)
         offset = seen[..., :3] - position
         reach = self.params["position_tolerance"] * self.footprint(w)
         rounding = 8 * ROUNDING * (length(offset) + reach) + ROUNDING * np.max(np.abs(position), axis=-1)
@@ -441,11 +454,71 @@ def recompute_box_blur(stage):
     return made, written, mean.doubts
 
 
+def facing_cosine(normal, to_viewer):
+    """Cosine between the direction to the viewer and the shading normal, which is turned to the viewer's side."""
+    normal = normal / length(normal)[..., None]
+    turned = normal + to_viewer * np.maximum(LEAST_COSINE - dot(normal, to_viewer), 0)[..., None]
+    return dot(turned / length(turned)[..., None], to_viewer)
+
+
+def recompute_modulate(stage):
+    """Radiance times the modulation colour, and the emission of the surface."""
+    position, albedo = stage.read("surface.position"), stage.read("surface.albedo")
+    emission, normal = stage.read("surface.emission"), stage.read("surface.normal")[..., :3]
+    eye = stage.run.conditions(stage.frame)["eye"]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        cosine = facing_cosine(normal, direction_to_viewer(position[..., :3], eye))
+    diffuse, specular = reflected_shares(stage.run, albedo, stage.read("surface.material"), cosine)
+    first = stage.read("radiance")[..., :3]
+    if stage.has("specular"):
+        reflected = first * np.maximum(diffuse, MODULATION_FLOOR)
+        if stage.run.record["scene"]["features"]["specular"]:
+            reflected += stage.read("specular")[..., :3] * np.maximum(specular, MODULATION_FLOOR)
+    else:
+        reflected = first * np.maximum(diffuse + specular, MODULATION_FLOOR)
+    reflected = np.where(emission[..., 3:] > 0.5, albedo[..., :3], reflected)
+    written = stage.written("radiance")
+    made = np.append(reflected + emission[..., :3], np.ones(position.shape[:2] + (1,)), axis=-1)
+    background = position[..., 3] <= 0
+    made[background] = np.append(written[background][:, :3], np.zeros((np.sum(background), 1)), axis=-1)
+    return made, written, {}
+
+
+CURVES = {
+    "filmic": lambda x: x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14),
+    "reinhard": lambda x: x / (1 + x),
+    "linear": lambda x: x,
+}
+
+
+def recompute_tonemap(stage):
+    """Exposure, tone curve and the encoding of sRGB, in whole steps of the picture."""
+    radiance = stage.read("radiance")[..., :3]
+    finite = np.all(np.isfinite(radiance), axis=-1)[..., None]
+    exposed = np.clip(np.where(finite, radiance, 0) * 2.0 ** stage.params["exposure"], 0, 1e9)
+    linear = np.clip(CURVES[stage.params["curve"]](exposed), 0, 1)
+    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    written = stage.written("image")
+    steps = np.iinfo(written.dtype).max
+    exact = np.append(encoded, np.ones(finite.shape), axis=-1) * steps
+    nearest = np.rint(exact)
+    doubtful = (nearest != written) & (np.abs(exact - written) <= 0.5 + ENCODING_ERROR * steps)
+    made = np.where(doubtful, written, nearest)
+    return made, written, {pixel: None for pixel in zip(*np.nonzero(np.any(doubtful, axis=-1)))}
+
+
 STAGES = {
     "distance_transform": (recompute_distance, 0.0),
     "temporal_accumulate": (recompute_temporal, TOLERANCE),
     "box_blur": (recompute_box_blur, TOLERANCE),
+    "modulate": (recompute_modulate, TOLERANCE),
+    "tonemap": (recompute_tonemap, 0.0),
 }
+
+
+def guide_of(kind, inputs):
+    """An input by which a box blur weighs its taps in another way than `recompute_box_blur` does; None without one."""
+    return next((port for port in ("variance", "guide") if kind == "box_blur" and port in inputs), None)
 
 
 def compare(name, kind, made, written, doubts, tolerance):
@@ -478,8 +551,9 @@ def main():
         agrees = []
         for kind, (recompute, tolerance) in STAGES.items():
             for entry in run.passes(kind):
-                if kind == "box_blur" and "variance" in entry["inputs"]:
-                    print(f"left out {entry['pass']} (box_blur): a variance guides it, which this sample does not do")
+                guide = guide_of(kind, entry["inputs"])
+                if guide:
+                    print(f"left out {entry['pass']} ({kind}): its input `{guide}` decides, which this sample does not know")
                     continue
                 made, written, doubts = recompute(Pass(run, entry, frame))
                 agrees.append(compare(entry["pass"], kind, made, written, doubts, tolerance))

@@ -42,10 +42,11 @@ class Recompute : public ::testing::Test {
   }
 
   /// Renders the sample scene small, everything dumped, into the folder `run`.
-  void render(const std::string& options) const {
+  void render(const std::string& options, const std::string& graph = "paper") const {
     const std::string source = source_dir().string();
     const Outcome rendered =
-        shell(std::string("'") + LIGHTLOOM_PROGRAM + "' render '" + source + "/graphs/paper.json' --scene '" + source +
+        shell(std::string("'") + LIGHTLOOM_PROGRAM + "' render '" + source + "/graphs/" + graph + ".json' --scene '" +
+              source +
               "/samples/scenes/atrium.scene.json' --size 128x96 --trace-size 128x96 --set resolution=40 --dump '*' " +
               "--dump-format npy --out '" + (folder_ / "run").string() + "' " + options);
     ASSERT_EQ(rendered.status, 0) << rendered.output;
@@ -96,7 +97,7 @@ TEST_F(Recompute, AgreesAlongAMovingCameraAndFindsWhatWasChanged) {
   const Outcome whole = recompute();
   ASSERT_EQ(whole.status, 0) << whole.output;
   EXPECT_THAT(whole.output, HasSubstr("agrees  distance (distance_transform): largest difference 0 absolute"));
-  for (const char* pass : {"temporal", "denoise_box_x", "denoise_box_y"})
+  for (const char* pass : {"temporal", "denoise_box_x", "denoise_box_y", "modulate", "tonemap"})
     EXPECT_THAT(whole.output, HasSubstr(std::string("agrees  ") + pass + " "));
   EXPECT_EQ(recompute("--frame 4").status, 0) << "a shorter history";
 
@@ -117,6 +118,14 @@ TEST_F(Recompute, AgreesAlongAMovingCameraAndFindsWhatWasChanged) {
   EXPECT_THAT(recompute().output, HasSubstr("DIFFERS denoise_box_y "));
   scale_floats("0009/denoise_box_x.radiance.npy", middle, 1, 1 / 1.001f);
 
+  scale_floats("0009/gather.surface.emission.npy", 0, 4 * 128 * 96, 1.01f);
+  EXPECT_THAT(recompute().output, HasSubstr("DIFFERS modulate "));
+  scale_floats("0009/gather.surface.emission.npy", 0, 4 * 128 * 96, 1 / 1.01f);
+
+  corrupt("0009/tonemap.image.npy", [](char* data, size_t size) { data[size / 2] ^= 1; });
+  EXPECT_THAT(recompute().output, HasSubstr("DIFFERS tonemap (tonemap): largest difference 1 absolute"));
+  corrupt("0009/tonemap.image.npy", [](char* data, size_t size) { data[size / 2] ^= 1; });
+
   corrupt("0009/distance.distance.npy", [](char* data, size_t size) { data[size / 2] ^= 1; });
   const Outcome distance = recompute();
   EXPECT_EQ(distance.status, 1);
@@ -134,6 +143,19 @@ TEST_F(Recompute, AgreesOnWhatMovesItself) {
     std::memcpy(data, before.data() + before.size() - size, size);
   });
   EXPECT_THAT(recompute().output, HasSubstr("DIFFERS temporal "));
+}
+
+TEST_F(Recompute, AgreesOnLobesApartAndOnEachCurveAndSaysWhatItLeavesOut) {
+  for (const char* curve : {"reinhard", "linear"}) {
+    render(std::string("--frames 0 --set tonemap.curve=") + curve, "lightloom");
+    const Outcome whole = recompute();
+    ASSERT_EQ(whole.status, 0) << whole.output;
+    for (const char* pass : {"distance", "modulate", "tonemap"})
+      EXPECT_THAT(whole.output, HasSubstr(std::string("agrees  ") + pass + " "));
+    EXPECT_THAT(whole.output, HasSubstr("left out denoise_diffuse_box_x (box_blur): its input `guide`"));
+  }
+  scale_floats("0000/denoise_specular_box_y.radiance.npy", size_t{4} * (48 * 128 + 64), 4 * 128, 1.01f);
+  EXPECT_THAT(recompute().output, HasSubstr("DIFFERS modulate "));
 }
 
 TEST_F(Recompute, SaysWhatIsMissing) {
