@@ -68,7 +68,7 @@ std::vector<Outcome> run_all(const std::vector<const Check*>& checks, stability:
 std::string document_of(const std::string& table) {
   return "# Stability\n\nMade by `lightloom stability --slow --validate --markdown`; do not edit. Each row is an "
          "extreme, measured on\nthe device named below by the graphs that ship or parts of them; "
-         "`ctest -R '^stability'` runs the same.\n\n" +
+         "`ctest -L stability` runs the same.\n\n" +
          table;
 }
 
