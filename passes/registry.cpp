@@ -10,6 +10,7 @@
 #include "passes/gather.hpp"
 #include "passes/modulate.hpp"
 #include "passes/pack_surface.hpp"
+#include "passes/radiance_cache.hpp"
 #include "passes/ray_query_path_trace.hpp"
 #include "passes/reference_path_trace.hpp"
 #include "passes/resample_surface.hpp"
@@ -29,6 +30,7 @@ void register_builtin_passes(PassRegistry& registry) {
   registry.add(make_voxel_merge());
   registry.add(make_distance_transform());
   registry.add(make_empty_boxes());
+  registry.add(make_radiance_cache());
   registry.add(make_emissive_faces());
   registry.add(make_gather());
   registry.add(make_resample_surface());

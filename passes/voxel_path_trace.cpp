@@ -4,6 +4,7 @@
 #include "passes/empty_boxes.hpp"
 #include "passes/path_trace_rows.hpp"
 #include "passes/port_rows.hpp"
+#include "passes/radiance_cache.hpp"
 
 namespace lightloom::passes {
 
@@ -34,22 +35,62 @@ Port counts_output() {
   return port;
 }
 
+Port cache_input() {
+  Port port = image_input("cache", Format::rgba32_sfloat, "radiance_cache.light; what `cache_from` ends paths by");
+  port.bundle = "cached_light";
+  port.parts = cached_light_parts();
+  port.dimension = Dimension::d3;
+  port.needed_with = [](const ParamSet& params) { return params.integer("cache_from") > 0; };
+  return optional(same_size_as("voxels", port));
+}
+
 std::vector<Port> ports() {
-  std::vector<Port> result = with_light_outputs(
-      {surface_input("surface", "first hits; one path tree starts at each pixel"),
-       voxels_input("voxels", "what the paths meet after the first hit"),
-       same_size_as("voxels", volume_input("distance",
-                                           "chessboard distance to the nearest occupied voxel [voxels / 255], "
-                                           "capped")),
-       boxes_input(),
-       optional_image("faces", Format::rg32_uint, "emissive_faces.faces; what `nee` voxel_faces draws from"),
-       optional_image("power", Format::r32_uint, "emissive_faces.power; what `emitter_area` surface compares with")});
+  std::vector<Port> inputs{surface_input("surface", "first hits; one path tree starts at each pixel")};
+  const std::vector<Port> light = light_inputs();
+  inputs.insert(inputs.end(), light.begin(), light.end());
+  inputs.push_back(cache_input());
+  std::vector<Port> result = with_light_outputs(inputs);
   result.push_back(counts_output());
   return result;
 }
 
 std::vector<Param> params() {
-  return with_path_params({
+  std::vector<Param> own = march_params();
+  own.push_back(integer_param(
+      "roulette", 0, 0, 64, "",
+      "Russian roulette: from this vertex after the first hit on, a path goes on with the probability of the "
+      "brightest channel of what it still carries, at least 1/20, and carries more by as much: fewer rays, more "
+      "noise, the same mean; 0: never"));
+  own.push_back(integer_param("cache_from", 0, 0, 64, "",
+                              "from this vertex after the first hit on, a path ends at the first voxel of which input "
+                              "`cache` knows the light; 0: "
+                              "never"));
+  return with_path_params(own);
+}
+
+void require_input(const PassContext& context, const std::string& param, const std::string& value,
+                   const std::string& port) {
+  if (context.params().choice(param) != value || context.connected(port)) return;
+  throw Error(
+      ExitCode::invalid_input,
+      "voxel_path_trace: param '" + param + "' is '" + value + "', but the input '" + port + "' is not connected",
+      "connect it to an emissive_faces pass: \"" + port + "\": \"emissive_faces." + port + "\"");
+}
+
+}  // namespace
+
+std::vector<Port> light_inputs() {
+  return {voxels_input("voxels", "what the paths meet after the first hit"),
+          same_size_as("voxels", volume_input("distance",
+                                              "chessboard distance to the nearest occupied voxel [voxels / 255], "
+                                              "capped")),
+          boxes_input(),
+          optional_image("faces", Format::rg32_uint, "emissive_faces.faces; what `nee` voxel_faces draws from"),
+          optional_image("power", Format::r32_uint, "emissive_faces.power; what `emitter_area` surface compares with")};
+}
+
+std::vector<Param> march_params() {
+  return {
       choice_param(
           "march", "cube_exit", {"sphere", "cube_exit", "dda", "box_exit"},
           "how rays go through the grid: by steps as long as the distance to the nearest occupied voxel (sphere, the "
@@ -70,25 +111,13 @@ std::vector<Param> params() {
       choice_param(
           "emitter_area", "voxels", {"voxels", "surface"},
           "radiance of emissive voxels: the material's, so that a lamp narrower than a voxel is too bright; or "
-          "scaled, by input `power`, so that all voxels of an emission have the power of its triangles, at most by 4"),
-      integer_param(
-          "roulette", 0, 0, 64, "",
-          "Russian roulette: from this vertex after the first hit on, a path goes on with the probability of the "
-          "brightest channel of what it still carries, at least 1/20, and carries more by as much: fewer rays, more "
-          "noise, the same mean; 0: never"),
-  });
+          "scaled, by input `power`, so that all voxels of an emission have the power of its triangles, at most by 4")};
 }
 
-void require_input(const PassContext& context, const std::string& param, const std::string& value,
-                   const std::string& port) {
-  if (context.params().choice(param) != value || context.connected(port)) return;
-  throw Error(
-      ExitCode::invalid_input,
-      "voxel_path_trace: param '" + param + "' is '" + value + "', but the input '" + port + "' is not connected",
-      "connect it to an emissive_faces pass: \"" + port + "\": \"emissive_faces." + port + "\"");
+void require_light_inputs(const PassContext& context) {
+  require_input(context, "nee", "voxel_faces", "faces");
+  require_input(context, "emitter_area", "surface", "power");
 }
-
-}  // namespace
 
 PassType make_voxel_path_trace() {
   PassType type;
@@ -101,8 +130,7 @@ PassType make_voxel_path_trace() {
   type.params = params();
   type.reads = FrameState::camera | FrameState::seed | FrameState::lights;
   type.record = [](PassContext& context) {
-    require_input(context, "nee", "voxel_faces", "faces");
-    require_input(context, "emitter_area", "surface", "power");
+    require_light_inputs(context);
     context.dispatch({"voxel_path_trace.comp", context.output_extent("radiance"), {}});
   };
   return type;

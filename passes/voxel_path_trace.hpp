@@ -6,4 +6,11 @@ namespace lightloom::passes {
 
 [[nodiscard]] PassType make_voxel_path_trace();
 
+/// What passes that trace light through voxels have in common: the voxels, what rays march by, and emissive faces.
+[[nodiscard]] std::vector<Port> light_inputs();
+/// How their rays march, and how they find emissive voxels.
+[[nodiscard]] std::vector<Param> march_params();
+/// Throws Error for a param that needs an input which is not connected.
+void require_light_inputs(const PassContext& context);
+
 }  // namespace lightloom::passes

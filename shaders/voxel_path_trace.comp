@@ -12,8 +12,7 @@
 #include "lib/lights.glsl"
 #include "lib/ray_start.glsl"
 #include "lib/traced_light.glsl"
-#include "lib/voxel_bits.glsl"
-#include "lib/voxel_encoding.glsl"
+#include "lib/voxel_vertex.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -21,6 +20,8 @@ uniform texture3D voxels_albedo;
 uniform texture3D voxels_normal;
 uniform texture3D voxels_material;
 uniform texture3D distance;
+uniform texture3D cache_front;
+uniform texture3D cache_back;
 uniform writeonly uimage2D out_counts;
 
 layout(push_constant) uniform Params {
@@ -31,9 +32,8 @@ layout(push_constant) uniform Params {
 };
 
 layout(constant_id = 3) const bool counts_wanted = false;
-
-// Voxel normals are 0.8 degrees off and tangents up to 10: a sharper lobe would only turn that into speckle.
-const float kVoxelMinimumAlpha = 0.03;
+layout(constant_id = 33) const bool cache_bound = false;
+layout(constant_id = 34) const uint cache_from = 0u;
 
 const float kLeastSurvival = 0.05;   // a path that carries next to nothing still ends within a few vertices
 
@@ -47,30 +47,6 @@ PathVertex surface_vertex(Grid grid, ivec2 pixel) {
   return vertex;
 }
 
-PathVertex voxel_vertex(Grid grid, MarchHit hit, vec3 origin, vec3 direction, VoxelSurface surface,
-                        float least_alpha) {
-  PathVertex vertex;
-  bool front = dot(surface.normal, direction) <= 0.0;
-  vec3 normal = front ? surface.normal : -surface.normal;
-  // The march stops anywhere inside the voxel. The centre is the best guess at the depth of the surface; sideways the
-  // position is kept, or light would come in blocks. Off the centre, 1.5 clearances leave the voxels of a plane.
-  vec3 hit_position = origin + direction * hit.t;
-  vec3 centre = vec3(hit.voxel) + 0.5;
-  vec3 position = hit_position + normal * dot(normal, centre - hit_position);
-  vertex.position = grid_to_world(grid, position);
-  // A normal that faces away may be that of the other wall of an edge, and its back the outside of the room: then the
-  // path goes on from the last place that was empty.
-  vec3 lifted = start == kStartSqrt3 ? hit_position + normal * start_offset(normal)
-                                     : position + normal * (1.5 * surface_clearance(normal));
-  vertex.origin = front ? lifted : origin + direction * max(hit.t - 1.0, 0.0);
-  vertex.geometric_normal = normal;
-  vertex.basis = make_frame(facing_normal(normal, -direction), surface.tangent);
-  vertex.incoming = to_local(vertex.basis, -direction);
-  vec2 alpha = max(surface.ward_alpha, vec2(least_alpha));
-  vertex.bsdf = Bsdf(surface.albedo, surface.metallic, surface.f0, surface.f90, alpha);
-  return vertex;
-}
-
 // Does a path that carries `throughput` from vertex `bounce` on go further? If so it carries more by as much as this was
 // unlikely. `u`: a uniform number.
 bool survives(uint bounce, float u, inout vec3 throughput) {
@@ -78,6 +54,18 @@ bool survives(uint bounce, float u, inout vec3 throughput) {
   float chance = clamp(max(throughput.r, max(throughput.g, throughput.b)), kLeastSurvival, 1.0);
   throughput /= chance;
   return u < chance;
+}
+
+// From a vertex on that the graph chooses, adds what the cache knows of all light that the voxel scatters; false if it knows
+// nothing yet.
+bool cached(MarchHit hit, VoxelSurface surface, vec3 direction, PathVertex vertex, uint bounce, vec3 throughput,
+            inout vec3 radiance) {
+  if (!cache_bound || cache_from == 0u || bounce < cache_from) return false;
+  vec4 light = meets_front(surface, direction) ? texelFetch(cache_front, hit.voxel, 0)
+                                               : texelFetch(cache_back, hit.voxel, 0);
+  if (light.a <= 0.0) return false;
+  radiance += throughput * albedo_towards(vertex) * light.rgb;
+  return true;
 }
 
 // Light that arrives at vertex 0 along the scattered ray.
@@ -93,9 +81,7 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
       radiance += throughput * (environment_hit(direction, scatter) + sun_hit(direction, scatter));
       break;
     }
-    VoxelSurface surface =
-        decode_voxel(texelFetch(voxels_albedo, hit.voxel, 0), texelFetch(voxels_normal, hit.voxel, 0),
-                     texelFetch(voxels_material, hit.voxel, 0), voxels_normal_bits);
+    VoxelSurface surface = surface_of(voxels_albedo, voxels_normal, voxels_material, hit.voxel);
     vec3 from = vertex.position;
     vec3 origin = vertex.origin;
     least_alpha = max(least_alpha, min(scatter.roughness, regularization));
@@ -103,6 +89,7 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
     radiance += throughput * emitter_hit(grid, voxels_albedo, hit, surface, from, vertex.position, origin, direction,
                                          scatter);
     if (bounce > bounces) break;
+    if (cached(hit, surface, direction, vertex, bounce, throughput, radiance)) break;
     PerLobe direct = direct_light(grid, distance, voxels_normal, voxels_material, vertex, key, bounce);
     radiance += throughput * (direct.diffuse + direct.specular);
     if (bounce == bounces && !kRaysFindLight) break;
