@@ -36,12 +36,9 @@ Port counts_output() {
 }
 
 Port cache_input() {
-  Port port = image_input("cache", Format::rgba32_sfloat, "radiance_cache.light; what `cache_from` ends paths by");
-  port.bundle = "cached_light";
-  port.parts = cached_light_parts();
-  port.dimension = Dimension::d3;
+  Port port = cached_light_input("cache", "radiance_cache.light; what `cache_from` ends paths by");
   port.needed_with = [](const ParamSet& params) { return params.integer("cache_from") > 0; };
-  return optional(same_size_as("voxels", port));
+  return port;
 }
 
 std::vector<Port> ports() {
@@ -55,16 +52,10 @@ std::vector<Port> ports() {
 }
 
 std::vector<Param> params() {
-  std::vector<Param> own = march_params();
-  own.push_back(integer_param(
-      "roulette", 0, 0, 64, "",
-      "Russian roulette: from this vertex after the first hit on, a path goes on with the probability of the "
-      "brightest channel of what it still carries, at least 1/20, and carries more by as much: fewer rays, more "
-      "noise, the same mean; 0: never"));
+  std::vector<Param> own = voxel_path_params();
   own.push_back(integer_param("cache_from", 0, 0, 64, "",
                               "from this vertex after the first hit on, a path ends at the first voxel of which input "
-                              "`cache` knows the light; 0: "
-                              "never"));
+                              "`cache` knows the light; 0: never"));
   return with_path_params(own);
 }
 
@@ -89,7 +80,7 @@ std::vector<Port> light_inputs() {
           optional_image("power", Format::r32_uint, "emissive_faces.power; what `emitter_area` surface compares with")};
 }
 
-std::vector<Param> march_params() {
+std::vector<Param> voxel_path_params() {
   return {
       choice_param(
           "march", "cube_exit", {"sphere", "cube_exit", "dda", "box_exit"},
@@ -111,7 +102,12 @@ std::vector<Param> march_params() {
       choice_param(
           "emitter_area", "voxels", {"voxels", "surface"},
           "radiance of emissive voxels: the material's, so that a lamp narrower than a voxel is too bright; or "
-          "scaled, by input `power`, so that all voxels of an emission have the power of its triangles, at most by 4")};
+          "scaled, by input `power`, so that all voxels of an emission have the power of its triangles, at most by 4"),
+      integer_param(
+          "roulette", 0, 0, 64, "",
+          "Russian roulette: from this vertex after the first hit on, a path goes on with the probability of the "
+          "brightest channel of what it still carries, at least 1/20, and carries more by as much: fewer rays, more "
+          "noise, the same mean; 0: never")};
 }
 
 void require_light_inputs(const PassContext& context) {

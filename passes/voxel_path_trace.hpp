@@ -8,8 +8,8 @@ namespace lightloom::passes {
 
 /// What passes that trace light through voxels have in common: the voxels, what rays march by, and emissive faces.
 [[nodiscard]] std::vector<Port> light_inputs();
-/// How their rays march, and how they find emissive voxels.
-[[nodiscard]] std::vector<Param> march_params();
+/// How their rays march, how they find emissive voxels, and how their paths end by chance.
+[[nodiscard]] std::vector<Param> voxel_path_params();
 /// Throws Error for a param that needs an input which is not connected.
 void require_light_inputs(const PassContext& context);
 

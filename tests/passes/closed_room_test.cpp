@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
 #include "tests/passes/estimator_support.hpp"
+#include "tests/passes/light_scenes.hpp"
 #include "tests/passes/light_support.hpp"
 #include "tests/support/device_fixture.hpp"
 
@@ -16,13 +16,6 @@ namespace {
 constexpr uint32_t kSize = 24;
 
 class ClosedRoom : public DeviceTest {};
-
-/// The six walls of a box, facing inwards.
-std::vector<QuadSpec> walls(const glm::vec3& low, const glm::vec3& high, uint32_t material) {
-  const glm::vec3 d = high - low, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
-  return {{low + z, x, -z, material},  {low + y, x, z, material},  {low, x, y, material},
-          {high - y, -x, y, material}, {low + z, -z, y, material}, {low + x, z, y, material}};
-}
 
 /// Passes that trace with the faces of emissive voxels, once for each number of bounces, as trace0, trace1, …
 std::string traces(int resolution, const std::vector<int>& bounces, const std::string& params) {
@@ -61,7 +54,7 @@ TEST_P(EmissiveBox, SumsTheSeriesOfItsBounces) {
     wall.double_sided = true;
     // 32 voxels from wall to wall, so that walls are boundaries of voxels.
     const scene::Scene scene =
-        make_quad_scene(walls(glm::vec3(-1), glm::vec3(1), 0), {wall}, look_at({0, 0, 0}, {0.3f, -0.2f, 1}, 1.2f));
+        make_quad_scene(room_walls(glm::vec3(-1), glm::vec3(1), 0), {wall}, look_at({0, 0, 0}, {0.3f, -0.2f, 1}, 1.2f));
     GraphRunOptions options;
     options.frames = 8;
     const std::vector<Images> frames =
@@ -87,7 +80,7 @@ TEST_F(ClosedRoom, RouletteEndsPathsEarly) {
   scene::Material wall = lambertian(glm::vec3(0.3f));
   wall.double_sided = true;
   const scene::Scene scene =
-      make_quad_scene(walls(glm::vec3(-1), glm::vec3(1), 0), {wall}, look_at({0, 0, 0}, {0.3f, -0.2f, 1}, 1.2f));
+      make_quad_scene(room_walls(glm::vec3(-1), glm::vec3(1), 0), {wall}, look_at({0, 0, 0}, {0.3f, -0.2f, 1}, 1.2f));
   const auto rays = [&](const std::string& roulette) {
     const Images images =
         run_graph(graph_text(kSize, kSize, kSize, kSize,
@@ -101,31 +94,6 @@ TEST_F(ClosedRoom, RouletteEndsPathsEarly) {
     return sum;
   };
   EXPECT_LT(rays("1"), 0.4 * rays("0"));
-}
-
-/// Two rooms that share a wall without thickness, with a lamp in one; seen from the other. All of it turned.
-scene::Scene two_rooms(const glm::mat3& turn, bool parted) {
-  scene::Material wall = lambertian(glm::vec3(0.8f));
-  scene::Material lamp = lambertian(glm::vec3(0));
-  lamp.emission = glm::vec3(1e4f);
-  lamp.double_sided = true;
-  wall.double_sided = true;
-  std::vector<QuadSpec> quads = walls({-1, -1, -1}, {1, 1, 1}, 0);
-  if (parted) quads.push_back({{0.07f, -1, 1}, {0, 0, -2}, {0, 2, 0}, 0});
-  quads.push_back({{-0.9f, 0.3f, -0.6f}, {0.8f, 0, 0}, {0, 0, 1.2f}, 1});
-  for (QuadSpec& quad : quads) quad = {turn * quad.corner, turn * quad.edge_u, turn * quad.edge_v, quad.material};
-  scene::Scene scene = make_quad_scene(quads, {wall, lamp},
-                                       look_at(turn * glm::vec3(0.95f, 0, 0), turn * glm::vec3(0, 0.1f, 0.05f), 2.4f));
-  scene::PunctualLight bulb;
-  bulb.intensity = glm::vec3(1e4f);
-  bulb.position = turn * glm::vec3(-0.5f, -0.4f, 0.2f);
-  scene.punctual = {bulb};
-  scene.features.punctual = true;
-  return scene;
-}
-
-glm::mat3 turned(float around_y, float around_x) {
-  return glm::mat3(glm::rotate(glm::rotate(glm::mat4(1), around_y, glm::vec3(0, 1, 0)), around_x, glm::vec3(1, 0, 0)));
 }
 
 class SealedRooms : public ClosedRoom, public testing::WithParamInterface<std::string> {};

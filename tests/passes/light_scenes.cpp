@@ -74,4 +74,34 @@ scene::Scene lamps_scene(const scene::Material& along, const scene::Material& ac
   return make_quad_scene(quads, {glossy_floor(), along, across}, look_at({-1.2f, 1.6f, 2.6f}, {0, 0.3f, 0}, 0.9f));
 }
 
+std::vector<QuadSpec> room_walls(const glm::vec3& low, const glm::vec3& high, uint32_t material) {
+  const glm::vec3 d = high - low, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
+  return {{low + z, x, -z, material},  {low + y, x, z, material},  {low, x, y, material},
+          {high - y, -x, y, material}, {low + z, -z, y, material}, {low + x, z, y, material}};
+}
+
+scene::Scene two_rooms(const glm::mat3& turn, bool parted) {
+  scene::Material wall = lambertian(glm::vec3(0.8f));
+  scene::Material lamp = lambertian(glm::vec3(0));
+  lamp.emission = glm::vec3(1e4f);
+  lamp.double_sided = true;
+  wall.double_sided = true;
+  std::vector<QuadSpec> quads = room_walls({-1, -1, -1}, {1, 1, 1}, 0);
+  if (parted) quads.push_back({{0.07f, -1, 1}, {0, 0, -2}, {0, 2, 0}, 0});
+  quads.push_back({{-0.9f, 0.3f, -0.6f}, {0.8f, 0, 0}, {0, 0, 1.2f}, 1});
+  for (QuadSpec& quad : quads) quad = {turn * quad.corner, turn * quad.edge_u, turn * quad.edge_v, quad.material};
+  scene::Scene scene = make_quad_scene(quads, {wall, lamp},
+                                       look_at(turn * glm::vec3(0.95f, 0, 0), turn * glm::vec3(0, 0.1f, 0.05f), 2.4f));
+  scene::PunctualLight bulb;
+  bulb.intensity = glm::vec3(1e4f);
+  bulb.position = turn * glm::vec3(-0.5f, -0.4f, 0.2f);
+  scene.punctual = {bulb};
+  scene.features.punctual = true;
+  return scene;
+}
+
+glm::mat3 turned(float around_y, float around_x) {
+  return glm::mat3(glm::rotate(glm::rotate(glm::mat4(1), around_y, glm::vec3(0, 1, 0)), around_x, glm::vec3(1, 0, 0)));
+}
+
 }  // namespace lightloom::test

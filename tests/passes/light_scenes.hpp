@@ -67,4 +67,14 @@ scene::Material glossy_floor();
 /// A glossy floor and wall, a lamp along the grid and one across it, of these materials, and a post between them.
 scene::Scene lamps_scene(const scene::Material& along, const scene::Material& across);
 
+/// The six walls of a box, facing inwards.
+std::vector<QuadSpec> room_walls(const glm::vec3& low, const glm::vec3& high, uint32_t material);
+
+/// Two rooms that share a wall without thickness (without it unless `parted`), with a lamp in one; seen from the other.
+/// All of it turned.
+scene::Scene two_rooms(const glm::mat3& turn, bool parted);
+
+/// A turn around y and one around x before it [radians].
+glm::mat3 turned(float around_y, float around_x);
+
 }  // namespace lightloom::test
