@@ -40,10 +40,11 @@ std::vector<Param> params() {
   return result;
 }
 
-/// One thread for each column of voxels along z.
+/// One thread for each voxel, then one for each column of them along z.
 void record(PassContext& context) {
   require_light_inputs(context);
   const Extent3 grid = context.output_extent("light");
+  context.dispatch({"radiance_cache_keep.comp", grid, {}});
   context.dispatch({"radiance_cache.comp", {grid.width, grid.height, 1}, {{"sampling", kSamplingIndependent}}});
 }
 

@@ -1,9 +1,10 @@
-// Light that reaches each occupied voxel, as a mean over frames. See passes/radiance_cache.cpp for the ports
-// and params.
+// Samples the light that reaches occupied voxels, after radiance_cache_keep.comp. See passes/radiance_cache.cpp for the
+// ports and params.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
 
+#include "lib/cached_light.glsl"
 #include "lib/storage.glsl"
 #include "lib/voxel_path.glsl"
 
@@ -21,13 +22,15 @@ layout(push_constant) uniform Params {
 
 layout(constant_id = 0) const float out_light_largest = 65504.0;
 
+// Where rays leave a voxel [grid units].
+vec3 ray_origin(ivec3 voxel, vec3 normal) { return vec3(voxel) + 0.5 + normal * (1.5 * surface_clearance(normal)); }
+
 // A white matt vertex in the middle of a voxel, on the side of its normal.
 PathVertex cache_vertex(Grid grid, ivec3 voxel) {
   VoxelSurface surface = surface_of(voxels_albedo, voxels_normal, voxels_material, voxel);
   PathVertex vertex;
-  vec3 centre = vec3(voxel) + 0.5;
-  vertex.position = grid_to_world(grid, centre);
-  vertex.origin = centre + surface.normal * (1.5 * surface_clearance(surface.normal));
+  vertex.position = grid_to_world(grid, vec3(voxel) + 0.5);
+  vertex.origin = ray_origin(voxel, surface.normal);
   vertex.geometric_normal = surface.normal;
   vertex.basis = make_frame(surface.normal, surface.tangent);
   vertex.incoming = vec3(0.0, 0.0, 1.0);
@@ -35,8 +38,10 @@ PathVertex cache_vertex(Grid grid, ivec3 voxel) {
   return vertex;
 }
 
-vec4 past_light(ivec3 voxel) {
-  return cache_bound && frame.ids.z > 0u ? texelFetch(cache, voxel, 0) : vec4(0.0);
+// Is there empty space before an occupied voxel? Rays that started among others might come out behind a wall.
+bool is_open(ivec3 voxel) {
+  vec3 normal = decode_voxel_normal(texelFetch(voxels_normal, voxel, 0), voxels_normal_bits);
+  return voxel_is_empty(voxels_albedo, ivec3(floor(ray_origin(voxel, normal))));
 }
 
 // One sample of the light that the voxel would scatter if it were white and matt.
@@ -54,7 +59,7 @@ vec4 with_sample(vec4 past, vec3 value) {
   return vec4(past.rgb + (value - past.rgb) / count, count);
 }
 
-void store(ivec3 voxel, vec4 light) { imageStore(out_light, voxel, storable(light, out_light_largest)); }
+void store_light(ivec3 voxel, vec4 light) { imageStore(out_light, voxel, storable(light, out_light_largest)); }
 
 // Is it the voxel's turn? At once where nothing is known yet.
 bool is_due(ivec3 voxel, vec4 past) {
@@ -62,17 +67,17 @@ bool is_due(ivec3 voxel, vec4 past) {
   return past.a == 0.0 || turn % interval == 0u;
 }
 
-// The next voxel of the column after z whose turn it is; the grid's depth if there is none. Empty ones have no light, the
-// others keep theirs.
+// The next voxel of the column from z on whose turn it is; the grid's depth if there is none. Of a buried one nothing is
+// known.
 int next_due(ivec2 column, int z, int depth) {
-  for (++z; z < depth; ++z) {
+  while (z < depth) {
     ivec3 voxel = ivec3(column, z);
-    vec4 light = vec4(0.0);
-    if (voxel_occupied(texelFetch(voxels_albedo, voxel, 0))) {
-      light = past_light(voxel);
-      if (is_due(voxel, light)) return z;
+    int empty = voxel_distance(distance, voxel);
+    if (empty == 0 && is_due(voxel, past_light(voxel))) {
+      if (is_open(voxel)) return z;
+      store_light(voxel, vec4(0.0));
     }
-    store(voxel, light);
+    z += max(empty, 1);
   }
   return depth;
 }
@@ -84,8 +89,8 @@ void main() {
   ivec2 column = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(column, size.xy))) return;
   Grid grid = scene_grid(size);
-  for (int z = next_due(column, -1, size.z); z < size.z; z = next_due(column, z, size.z)) {
+  for (int z = next_due(column, 0, size.z); z < size.z; z = next_due(column, z + 1, size.z)) {
     ivec3 voxel = ivec3(column, z);
-    store(voxel, with_sample(past_light(voxel), light_sample(grid, voxel)));
+    store_light(voxel, with_sample(past_light(voxel), light_sample(grid, voxel)));
   }
 }

@@ -6,6 +6,7 @@
 #ifndef LIGHTLOOM_LIB_VOXEL_PATH
 #define LIGHTLOOM_LIB_VOXEL_PATH
 
+#include "lib/cached_light.glsl"
 #include "lib/features.glsl"
 #include "lib/lights.glsl"
 #include "lib/voxel_vertex.glsl"
@@ -14,9 +15,6 @@ uniform texture3D voxels_albedo;
 uniform texture3D voxels_normal;
 uniform texture3D voxels_material;
 uniform texture3D distance;
-uniform texture3D cache;
-
-layout(constant_id = 33) const bool cache_bound = false;
 
 // How far paths go: see the params of the passes that trace them.
 struct PathLimits {

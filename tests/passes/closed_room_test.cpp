@@ -101,7 +101,9 @@ class SealedRooms : public ClosedRoom, public testing::WithParamInterface<std::s
 /// Largest and mean value of the room without the lamp.
 std::pair<double, double> light_next_door(const std::string& params, const glm::mat3& turn, bool parted) {
   const std::string passes = traces(40, {4}, R"("paths": )" + std::string(parted ? "32, " : "1, ") + params);
-  const Images images = run_graph(graph_text(64, 64, 64, 64, passes, outputs({4})), two_rooms(turn, parted)).front();
+  const Images images = run_graph(graph_text(64, 64, 64, 64, passes, outputs({4})),
+                                  two_rooms(turn, parted ? Partition::faces_away : Partition::none))
+                            .front();
   double largest = 0;
   for (uint32_t y = 0; y < 64; ++y)
     for (uint32_t x = 0; x < 64; ++x) largest = std::max(largest, images.at("trace4").at(x, y, 0, 0));

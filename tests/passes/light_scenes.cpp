@@ -80,14 +80,15 @@ std::vector<QuadSpec> room_walls(const glm::vec3& low, const glm::vec3& high, ui
           {high - y, -x, y, material}, {low + z, -z, y, material}, {low + x, z, y, material}};
 }
 
-scene::Scene two_rooms(const glm::mat3& turn, bool parted) {
+scene::Scene two_rooms(const glm::mat3& turn, Partition partition) {
   scene::Material wall = lambertian(glm::vec3(0.8f));
   scene::Material lamp = lambertian(glm::vec3(0));
   lamp.emission = glm::vec3(1e4f);
   lamp.double_sided = true;
   wall.double_sided = true;
   std::vector<QuadSpec> quads = room_walls({-1, -1, -1}, {1, 1, 1}, 0);
-  if (parted) quads.push_back({{0.07f, -1, 1}, {0, 0, -2}, {0, 2, 0}, 0});
+  if (partition == Partition::faces_away) quads.push_back({{0.07f, -1, 1}, {0, 0, -2}, {0, 2, 0}, 0});
+  if (partition == Partition::faces_lamp) quads.push_back({{0.07f, -1, -1}, {0, 0, 2}, {0, 2, 0}, 0});
   quads.push_back({{-0.9f, 0.3f, -0.6f}, {0.8f, 0, 0}, {0, 0, 1.2f}, 1});
   for (QuadSpec& quad : quads) quad = {turn * quad.corner, turn * quad.edge_u, turn * quad.edge_v, quad.material};
   scene::Scene scene = make_quad_scene(quads, {wall, lamp},

@@ -70,9 +70,11 @@ scene::Scene lamps_scene(const scene::Material& along, const scene::Material& ac
 /// The six walls of a box, facing inwards.
 std::vector<QuadSpec> room_walls(const glm::vec3& low, const glm::vec3& high, uint32_t material);
 
-/// Two rooms that share a wall without thickness (without it unless `parted`), with a lamp in one; seen from the other.
-/// All of it turned.
-scene::Scene two_rooms(const glm::mat3& turn, bool parted);
+/// A wall without thickness between two rooms, and to which its normal points.
+enum class Partition : uint8_t { none, faces_lamp, faces_away };
+
+/// Two rooms side by side with a lamp in one, seen from the other; all of it turned.
+scene::Scene two_rooms(const glm::mat3& turn, Partition partition);
 
 /// A turn around y and one around x before it [radians].
 glm::mat3 turned(float around_y, float around_x);

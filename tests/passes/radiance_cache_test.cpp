@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/passes/light_scenes.hpp"
@@ -19,7 +20,7 @@ constexpr uint32_t kSize = 24;
 class RadianceCache : public DeviceTest {};
 
 /// A room whose walls emit 2 W sr^-1 m^-2 and reflect `albedo`, seen from its middle; its walls are boundaries of
-/// voxels of a grid of 34.
+/// voxels of a grid of 18.
 scene::Scene emissive_room(double albedo) {
   scene::Material wall = lambertian(glm::vec3(static_cast<float>(albedo)));
   wall.emission = glm::vec3(2);
@@ -47,6 +48,10 @@ std::vector<Images> cached_frames(const scene::Scene& scene, const std::string& 
   return run_graph(
       graph_text(kSize, kSize, kSize, kSize, passes, R"("light": "cache.light", "albedo": "voxelize.voxels.albedo")"),
       scene, options);
+}
+
+double samples_of(const image::HostImage& light, const glm::ivec3& voxel) {
+  return light.at(static_cast<uint32_t>(voxel.x), static_cast<uint32_t>(voxel.y), static_cast<uint32_t>(voxel.z), 3);
 }
 
 struct CacheMean {
@@ -79,34 +84,41 @@ TEST_F(RadianceCache, HoldsTheWholeSeriesOfAnEmissiveRoomFromTheFirstFrameOn) {
   for (const double root : {180.0 / 255, 228.0 / 255}) {
     const double expected = 2 / (1 - root * root);
     const std::vector<Images> frames =
-        cached_frames(emissive_room(root * root), cache_passes(34, R"(, "bounces": 64)", kWithPast), 12);
+        cached_frames(emissive_room(root * root), cache_passes(18, R"(, "bounces": 64)", kWithPast), 12);
     for (size_t frame = 0; frame < frames.size(); ++frame)
       EXPECT_NEAR(mean_of_known(frames[frame].at("light")).light, expected, 0.01 * expected) << root << " " << frame;
   }
 }
 
 TEST_F(RadianceCache, WithoutAPastEachFrameStandsAlone) {
-  const std::vector<Images> frames = cached_frames(emissive_room(0.5), cache_passes(34, R"(, "bounces": 0)", ""), 3);
+  const std::vector<Images> frames = cached_frames(emissive_room(0.5), cache_passes(18, R"(, "bounces": 0)", ""), 3);
   // Scattered once at the cache's own voxel: only what the walls emit comes there.
   for (const Images& frame : frames) {
-    EXPECT_NEAR(mean_of_known(frame.at("light")).light, 2, 0.02);
+    EXPECT_NEAR(mean_of_known(frame.at("light")).light, 2, 0.05);
     EXPECT_EQ(mean_of_known(frame.at("light")).samples, 1);
   }
 }
 
-TEST_F(RadianceCache, KnowsEachOccupiedVoxelAndNoOther) {
-  const std::vector<Images> frames = cached_frames(emissive_room(0.5), cache_passes(34, "", kWithPast), 3);
-  const Images& last = frames.back();
+/// A wall on a boundary of voxels has 16 x 16 of them on each side. Those two from an edge and less are buried: rays
+/// from there would start among the voxels of the next wall.
+TEST_F(RadianceCache, KnowsTheOpenVoxelsAndNoEmptyOne) {
+  const Images last = cached_frames(emissive_room(0.5), cache_passes(18, "", kWithPast), 3).back();
+  int known = 0;
   for_each_voxel(last.at("light"), [&](const glm::ivec3& voxel) {
-    const auto samples = last.at("light").at(static_cast<uint32_t>(voxel.x), static_cast<uint32_t>(voxel.y),
-                                             static_cast<uint32_t>(voxel.z), 3);
-    ASSERT_EQ(samples, occupied(last.at("albedo"), voxel) ? 3 : 0) << voxel.x << " " << voxel.y << " " << voxel.z;
+    const double samples = samples_of(last.at("light"), voxel);
+    if (!occupied(last.at("albedo"), voxel)) {
+      ASSERT_EQ(samples, 0) << voxel.x << " " << voxel.y << " " << voxel.z;
+    }
+    if (samples == 0) return;
+    ASSERT_EQ(samples, 3) << voxel.x << " " << voxel.y << " " << voxel.z;
+    ++known;
   });
+  EXPECT_EQ(known, 2 * 6 * 14 * 14);
 }
 
 TEST_F(RadianceCache, SamplesOneOfAnIntervalInTurnAndForgetsGradually) {
   const std::vector<Images> frames =
-      cached_frames(emissive_room(0.5), cache_passes(34, R"(, "interval": 4, "frames": 3)", kWithPast), 14);
+      cached_frames(emissive_room(0.5), cache_passes(18, R"(, "interval": 4, "frames": 3)", kWithPast), 14);
   // At once, then every fourth frame: four frames on each voxel has one sample more, until the mean holds three.
   EXPECT_EQ(mean_of_known(frames[0].at("light")).samples, 1);
   EXPECT_NEAR(mean_of_known(frames[1].at("light")).samples, 1.25, 0.02);
@@ -135,41 +147,68 @@ double traced(const scene::Scene& scene, const std::string& passes, uint32_t fra
 TEST_F(RadianceCache, PathsThatEndByItHaveTheLightOfAllBounces) {
   const double albedo = 228.0 * 228 / (255 * 255);
   const double expected = 2 / (1 - albedo);
-  const std::string cache = cache_passes(34, R"(, "bounces": 64)", kWithPast);
+  const std::string cache = cache_passes(18, R"(, "bounces": 64)", kWithPast);
   for (const std::string from : {"1", "2"})
-    EXPECT_NEAR(traced(emissive_room(albedo), cache + tracer(R"("paths": 16, "bounces": 2, "cache_from": )" + from), 4),
-                expected, 0.01 * expected)
+    EXPECT_NEAR(
+        traced(emissive_room(albedo), cache + tracer(R"("paths": 16, "bounces": 16, "cache_from": )" + from), 4),
+        expected, 0.01 * expected)
         << from;
-  // Without it they end at the third scattering.
+  // Paths that may not end by it stop where their bounces do.
   EXPECT_NEAR(traced(emissive_room(albedo), cache + tracer(R"("paths": 16, "bounces": 2)")),
               2 * (1 - std::pow(albedo, 3)) / (1 - albedo), 0.01 * expected);
 }
 
-/// Light that a wall without thickness lets through, beside what comes where there is none: voxels know one normal, and
-/// where walls meet it may be that of the lit side.
-TEST_F(RadianceCache, LetsLittleThroughAWall) {
-  const std::string passes =
-      cache_passes(40, R"(, "bounces": 64)", kWithPast) + tracer(R"("paths": 16, "bounces": 4, "cache_from": 1)");
-  for (const glm::mat3& turn : {turned(0, 0), turned(0.4f, 0), turned(0.5f, 0.3f)})
-    EXPECT_LT(traced(two_rooms(turn, true), passes, 4), 0.01 * traced(two_rooms(turn, false), passes, 4));
+/// Of a wall without thickness the cache knows one side, and that may be the lit one. What leaks where its normal
+/// points to the lamp are pixels at its foot, whose rays start within its voxels: of paths that do not end by the
+/// cache, too.
+TEST_F(RadianceCache, LetsNoMoreThroughAWallThanPathsDo) {
+  const std::string cache = cache_passes(24, R"(, "bounces": 8)", kWithPast);
+  const std::string to_the_end = cache + tracer(R"("paths": 8, "bounces": 8)");
+  const std::string ended = cache + tracer(R"("paths": 8, "bounces": 8, "cache_from": 1)");
+  for (const glm::mat3& turn : {turned(0, 0), turned(0.5f, 0.3f)}) {
+    EXPECT_EQ(traced(two_rooms(turn, Partition::faces_away), ended, 2), 0);
+    const scene::Scene faces_lamp = two_rooms(turn, Partition::faces_lamp);
+    EXPECT_LT(traced(faces_lamp, ended, 2), 1.5 * traced(faces_lamp, to_the_end, 2));
+  }
+  EXPECT_GT(traced(two_rooms(turned(0.5f, 0.3f), Partition::none), ended), 100) << "without a wall between them";
 }
 
-/// A box that moves a voxel's length a frame: what it leaves is empty, what it comes to is known at once.
+/// The cache of a frame ago, of which there is none yet.
+TEST_F(RadianceCache, PathsGoOnWhereItKnowsNothing) {
+  const std::string passes = cache_passes(18, "", kWithPast);
+  std::string ended = tracer(R"("paths": 2, "bounces": 3, "cache_from": 1)");
+  ended.replace(ended.find("cache.light"), 11, "cache.light@1");
+  EXPECT_EQ(traced(emissive_room(0.5), passes + ended),
+            traced(emissive_room(0.5), passes + tracer(R"("paths": 2, "bounces": 3)")));
+}
+
+/// Where bounces are few, a cache that has a past makes up for it: once more in each frame.
+TEST_F(RadianceCache, ScattersOnceMoreInEachFrame) {
+  const std::vector<Images> frames =
+      cached_frames(emissive_room(0.5), cache_passes(18, R"(, "bounces": 1)", kWithPast), 12);
+  EXPECT_NEAR(mean_of_known(frames.front().at("light")).light, 3, 0.03);
+  EXPECT_GT(mean_of_known(frames.back().at("light")).light, 3.3);
+  EXPECT_LT(mean_of_known(frames.back().at("light")).light, 4.04);
+}
+
+/// A box that moves two voxels a frame: what it leaves is empty, what it comes to is known at once.
 TEST_F(RadianceCache, FollowsWhatMoves) {
-  const scene::Scene room = make_quad_scene(room_walls(glm::vec3(-1), glm::vec3(1), 0), {lambertian(glm::vec3(0.5f))},
-                                            look_at({0, 0, 0}, {0.3f, -0.2f, 1}, 1.2f));
   std::vector<Placement> placements;
-  for (int frame = 0; frame < 4; ++frame)
-    placements.push_back({glm::vec3(-0.3f + 0.15f * static_cast<float>(frame), 0, 0)});
-  const scene::Scene scene =
-      with_moving(room, {{cube_triangles(0.2f, glm::mat3(1)), lambertian(glm::vec3(0.5f)), placements}});
-  const std::vector<Images> frames = cached_frames(scene, cache_passes(34, R"(, "interval": 16)", kWithPast), 4);
-  for (const Images& frame : frames)
+  for (int frame = 0; frame < 3; ++frame)
+    placements.push_back({glm::vec3(-0.25f + 0.25f * static_cast<float>(frame), 0, 0)});
+  scene::Scene scene = emissive_room(0.5);
+  const scene::Material material = scene.materials.front();
+  scene = with_moving(std::move(scene), {{cube_triangles(0.625f, glm::mat3(1)), material, placements}});
+  for (const Images& frame : cached_frames(scene, cache_passes(18, R"(, "interval": 16)", kWithPast), 3)) {
+    int known = 0;
     for_each_voxel(frame.at("light"), [&](const glm::ivec3& voxel) {
-      const bool known = frame.at("light").at(static_cast<uint32_t>(voxel.x), static_cast<uint32_t>(voxel.y),
-                                              static_cast<uint32_t>(voxel.z), 3) > 0;
-      ASSERT_EQ(known, occupied(frame.at("albedo"), voxel)) << voxel.x << " " << voxel.y << " " << voxel.z;
+      if (samples_of(frame.at("light"), voxel) == 0) return;
+      ASSERT_TRUE(occupied(frame.at("albedo"), voxel)) << voxel.x << " " << voxel.y << " " << voxel.z;
+      ++known;
     });
+    // A face of the box and a wall of the room are 10 and 16 voxels wide.
+    EXPECT_GT(known, 6 * (10 * 10 + 16 * 16) * 0.8);
+  }
 }
 
 }  // namespace
