@@ -26,7 +26,6 @@ bool runs(const Graph& graph, const std::string& name) {
 
 TEST(LightloomGraph, LobesAreFilteredApartByTheSamePassTypes) {
   const Graph graph = lightloom_graph();
-  EXPECT_TRUE(graph.culled.empty());
   for (const std::string lobe : {"diffuse", "specular"}) {
     EXPECT_EQ(toy::source(graph, "temporal_" + lobe, "radiance"), "trace." + lobe);
     for (const std::string stage : {"tangent", "bitangent", "box_x", "box_y"}) {
@@ -39,6 +38,17 @@ TEST(LightloomGraph, LobesAreFilteredApartByTheSamePassTypes) {
   EXPECT_EQ(toy::source(graph, "upsample", "radiance"), "denoise_diffuse_box_y.radiance");
   EXPECT_EQ(toy::source(graph, "upsample", "specular"), "denoise_specular_box_y.radiance");
   EXPECT_EQ(toy::source(graph, "modulate", "specular"), "upsample.specular");
+}
+
+TEST(LightloomGraph, TheRadianceCacheRunsWherePathsEndByIt) {
+  const Graph plain = lightloom_graph();
+  ASSERT_EQ(plain.culled.size(), 1u) << "all else has something to do";
+  EXPECT_EQ(plain.culled.front().pass, "cache");
+  LinkOptions options;
+  options.variants = {"cached"};
+  const Graph cached = lightloom_graph(options);
+  EXPECT_TRUE(cached.culled.empty());
+  EXPECT_EQ(toy::source(cached, "trace", "cache"), "cache.light");
 }
 
 TEST(LightloomGraph, WithoutSpecularReflectionItsChainFallsAway) {
@@ -74,7 +84,7 @@ TEST(LightloomGraph, EveryVariantAndEveryStageAloneLinksWithoutHazard) {
       EXPECT_EQ(verify(compile(lightloom_graph(options, specular)), {}, 1).violations, std::vector<std::string>{})
           << glob;
     }
-    for (const char* variant : {"no_denoise", "no_temporal", "raw", "paths15", "isotropic"}) {
+    for (const char* variant : {"no_denoise", "no_temporal", "raw", "paths15", "cached", "isotropic"}) {
       LinkOptions options;
       options.variants = {variant};
       EXPECT_EQ(verify(compile(lightloom_graph(options, specular)), {}, 1).violations, std::vector<std::string>{})
