@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tests/passes/estimator_support.hpp"
+#include "tests/passes/light_scenes.hpp"
 #include "tests/ray_query/ray_query_support.hpp"
 
 namespace lightloom::test {
@@ -19,7 +20,7 @@ scene::Scene emissive_box(float albedo, const glm::vec3& low, const glm::vec3& h
   scene::Material wall = lambertian(glm::vec3(albedo));
   wall.emission = glm::vec3(2);
   const glm::vec3 center = 0.5f * (low + high);
-  return make_quad_scene(box_walls(low, high, 0), {wall}, look_at(center, center + glm::vec3(0.3f, -0.2f, 1), 1.2f));
+  return make_quad_scene(room_walls(low, high, 0), {wall}, look_at(center, center + glm::vec3(0.3f, -0.2f, 1), 1.2f));
 }
 
 TEST_F(RayQueryClosedForm, EmissiveBoxSumsTheSeriesOfItsBounces) {

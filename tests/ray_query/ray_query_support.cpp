@@ -36,12 +36,6 @@ std::vector<Images> trace_rays(const scene::Scene& scene, const RaySettings& set
   return run_graph(graph_text(size, size, size, size, passes, outputs), scene, options);
 }
 
-std::vector<QuadSpec> box_walls(const glm::vec3& low, const glm::vec3& high, uint32_t material) {
-  const glm::vec3 d = high - low, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
-  return {{low + z, x, -z, material},  {low + y, x, z, material},  {low, x, y, material},
-          {high - y, -x, y, material}, {low + z, -z, y, material}, {low + x, z, y, material}};
-}
-
 scene::Material lamp_material(const glm::vec3& radiance, bool two_sided) {
   scene::Material material = lambertian(glm::vec3(0));
   material.emission = radiance;

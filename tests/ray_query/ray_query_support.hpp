@@ -31,9 +31,6 @@ struct RaySettings {
 /// is the first) and "position".
 std::vector<Images> trace_rays(const scene::Scene& scene, const RaySettings& settings);
 
-/// The six walls of a box, facing inwards.
-std::vector<QuadSpec> box_walls(const glm::vec3& low, const glm::vec3& high, uint32_t material);
-
 /// Emits `radiance` from its front, or from both sides.
 scene::Material lamp_material(const glm::vec3& radiance, bool two_sided = false);
 
