@@ -8,12 +8,15 @@
 #include "passes/empty_boxes.hpp"
 #include "passes/filter_guide.hpp"
 #include "passes/gather.hpp"
+#include "passes/light_reservoirs.hpp"
 #include "passes/modulate.hpp"
+#include "passes/moved_voxels.hpp"
 #include "passes/pack_surface.hpp"
 #include "passes/radiance_cache.hpp"
 #include "passes/ray_query_path_trace.hpp"
 #include "passes/reference_path_trace.hpp"
 #include "passes/resample_surface.hpp"
+#include "passes/reuse_reservoirs.hpp"
 #include "passes/temporal_accumulate.hpp"
 #include "passes/tonemap.hpp"
 #include "passes/upsample.hpp"
@@ -32,8 +35,11 @@ void register_builtin_passes(PassRegistry& registry) {
   registry.add(make_empty_boxes());
   registry.add(make_radiance_cache());
   registry.add(make_emissive_faces());
+  registry.add(make_moved_voxels());
   registry.add(make_gather());
   registry.add(make_resample_surface());
+  registry.add(make_light_reservoirs());
+  registry.add(make_reuse_reservoirs());
   registry.add(make_voxel_path_trace());
   registry.add(make_reference_path_trace());
   registry.add(make_ray_query_path_trace());

@@ -5,6 +5,7 @@
 #include "passes/path_trace_rows.hpp"
 #include "passes/port_rows.hpp"
 #include "passes/radiance_cache.hpp"
+#include "passes/reservoir_rows.hpp"
 
 namespace lightloom::passes {
 
@@ -41,11 +42,21 @@ Port cache_input() {
   return port;
 }
 
+Port held_sample_input() {
+  Port port = reservoir_input("reservoir",
+                              "light_reservoirs.reservoir or reuse_reservoirs.reservoir, with `nee` voxel_faces: the "
+                              "light sample of emissive faces at the first hit, one ray for all paths of the pixel; "
+                              "paths draw none of their own there. What `reservoir_draws` asks for");
+  port.needed_with = [](const ParamSet& params) { return params.real("reservoir_draws") > 0; };
+  return optional(port);
+}
+
 std::vector<Port> ports() {
   std::vector<Port> inputs{surface_input("surface", "first hits; one path tree starts at each pixel")};
   const std::vector<Port> light = light_inputs();
   inputs.insert(inputs.end(), light.begin(), light.end());
   inputs.push_back(cache_input());
+  inputs.push_back(held_sample_input());
   std::vector<Port> result = with_light_outputs(inputs);
   result.push_back(counts_output());
   return result;
@@ -56,6 +67,11 @@ std::vector<Param> params() {
   own.push_back(integer_param("cache_from", 0, 0, 64, "",
                               "from this vertex after the first hit on, a path ends at the first voxel of which input "
                               "`cache` knows the light; 0: never"));
+  own.push_back(real_param(
+      "reservoir_draws", 0, 0, 1e6, "",
+      "draws of a light that the sample in input `reservoir` counts for at the first hit, beside one scattered ray, in "
+      "multiple importance sampling: more leaves less of the light to what rays meet by chance; 0: there is no such "
+      "sample, and paths draw their own"));
   return with_path_params(own);
 }
 
@@ -127,6 +143,10 @@ PassType make_voxel_path_trace() {
   type.reads = FrameState::camera | FrameState::seed | FrameState::lights;
   type.record = [](PassContext& context) {
     require_light_inputs(context);
+    if (context.connected("reservoir") && context.params().choice("nee") != "voxel_faces")
+      throw Error(ExitCode::invalid_input,
+                  "voxel_path_trace: the input 'reservoir' holds points on the faces of voxels",
+                  "set the param 'nee' to 'voxel_faces'");
     context.dispatch({"voxel_path_trace.comp", context.output_extent("radiance"), {}});
   };
   return type;

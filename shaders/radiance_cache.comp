@@ -48,7 +48,7 @@ bool is_open(ivec3 voxel) {
 vec3 light_sample(Grid grid, ivec3 voxel) {
   uvec2 place = uvec2(voxel.xy) | (1u << 15u);   // no pixel's: the numbers are of the cache alone
   RandomKey key = RandomKey(place, frame.ids.x, frame.ids.y, uint(voxel.z), 1u);
-  PathLimits limits = PathLimits(bounces, regularization, roulette, frame.ids.z > 0u ? 1u : 0u);
+  PathLimits limits = PathLimits(bounces, regularization, roulette, frame.ids.z > 0u ? 1u : 0u, 0.0);
   return trace_path(grid, cache_vertex(grid, voxel), key, limits).diffuse;
 }
 

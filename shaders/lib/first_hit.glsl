@@ -2,8 +2,8 @@
 #ifndef LIGHTLOOM_LIB_FIRST_HIT
 #define LIGHTLOOM_LIB_FIRST_HIT
 
-#include "lib/path_vertex.glsl"
 #include "lib/scene.glsl"
+#include "lib/surface_texels.glsl"
 
 uniform texture2D surface_position;
 uniform texture2D surface_normal;
@@ -20,19 +20,14 @@ bool is_lit(ivec2 pixel) {
 
 // The vertex of a lit pixel; `origin` is left to the caller.
 PathVertex first_hit(ivec2 pixel) {
-  PathVertex vertex;
-  vec3 position = texelFetch(surface_position, pixel, 0).xyz;
-  vec4 albedo = texelFetch(surface_albedo, pixel, 0);
-  vec4 material = texelFetch(surface_material, pixel, 0);
-  vec3 to_viewer = normalize(frame.eye[0].xyz - position * frame.eye[0].w);
-  vertex.position = position;
-  vertex.origin = position;
-  vertex.geometric_normal = normalize(texelFetch(surface_geometric_normal, pixel, 0).xyz);
-  vec3 normal = facing_normal(normalize(texelFetch(surface_normal, pixel, 0).xyz), to_viewer);
-  vertex.basis = make_frame(normal, texelFetch(surface_tangent, pixel, 0).xyz);
-  vertex.incoming = to_local(vertex.basis, to_viewer);
-  vertex.bsdf = Bsdf(albedo.rgb, albedo.w, material.z, material.w, material.xy);
-  return vertex;
+  SurfaceTexels texels;
+  texels.position = texelFetch(surface_position, pixel, 0);
+  texels.normal = texelFetch(surface_normal, pixel, 0);
+  texels.geometric_normal = texelFetch(surface_geometric_normal, pixel, 0);
+  texels.tangent = texelFetch(surface_tangent, pixel, 0);
+  texels.albedo = texelFetch(surface_albedo, pixel, 0);
+  texels.material = texelFetch(surface_material, pixel, 0);
+  return vertex_of_surface(texels, frame.eye[0]);
 }
 
 #endif

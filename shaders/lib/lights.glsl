@@ -26,11 +26,12 @@ PerLobe punctual_light(Grid grid, texture3D distance_field, texture3D materials,
   return near.light;
 }
 
-// Direct light that each lobe reflects at vertex `bounce` of a path.
+// Direct light that each lobe reflects at vertex `bounce` of a path; that of emissive surfaces only if `with_emitters`.
 PerLobe direct_light(Grid grid, texture3D distance_field, texture3D normals, texture3D materials, PathVertex vertex,
-                     RandomKey key, uint bounce) {
+                     RandomKey key, uint bounce, bool with_emitters) {
   vec4 u = path_random4(key, bounce, kDimensionLight);
-  PerLobe light = emitter_light(grid, distance_field, normals, materials, vertex, key, bounce, u.x);
+  PerLobe light = kNoLight;
+  if (with_emitters) light = emitter_light(grid, distance_field, normals, materials, vertex, key, bounce, u.x);
   light = sum_of(light, distant_light(distance_field, vertex, sun_sample(vertex, u.yz)));
   if (environment_sampled()) {
     LightSample sky = environment_sample(vertex, path_random4(key, bounce, kDimensionEnvironment));

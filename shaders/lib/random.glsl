@@ -10,6 +10,9 @@ const uint kDimensionLight = 0u;     // which hint, which punctual light, where 
 const uint kDimensionScatter = 1u;   // which lobe, direction
 const uint kDimensionEnvironment = 2u;   // direction from which light of the environment comes
 const uint kDimensionFace = 3u;      // which face of an emissive voxel, where on it
+const uint kDimensionCandidate = 4u; // the same, of a candidate for a reservoir
+const uint kDimensionResample = 5u;  // which of two reservoirs' samples is kept
+const uint kDimensionNeighbour = 6u; // which pixel's reservoir is reused
 
 struct RandomKey {
   uvec2 pixel;   // below 65536 each

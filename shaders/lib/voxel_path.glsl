@@ -10,10 +10,8 @@
 #include "lib/features.glsl"
 #include "lib/lights.glsl"
 #include "lib/voxel_vertex.glsl"
+#include "lib/voxels.glsl"
 
-uniform texture3D voxels_albedo;
-uniform texture3D voxels_normal;
-uniform texture3D voxels_material;
 uniform texture3D distance;
 
 // How far paths go: see the params of the passes that trace them.
@@ -22,6 +20,7 @@ struct PathLimits {
   float regularization;
   uint roulette;
   uint cache_from;
+  float reservoir_draws;   // of emissive faces, made for vertex 0 by a reservoir; 0: none, it draws its own
 };
 
 const float kLeastCached = 2.0;      // [voxels] light that comes from nearer would be seen in blocks
@@ -49,6 +48,11 @@ bool cached(MarchHit hit, VoxelSurface surface, vec3 direction, PathVertex verte
   return true;
 }
 
+// Draws of emissive faces at a vertex.
+float draws_at(uint bounce, PathLimits limits) {
+  return bounce == 0u && limits.reservoir_draws > 0.0 ? limits.reservoir_draws : 1.0;
+}
+
 // Light that arrives at vertex 0 along the scattered ray.
 vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey key, PathLimits limits) {
   vec3 radiance = vec3(0.0);
@@ -68,11 +72,11 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
     least_alpha = max(least_alpha, min(scatter.roughness, limits.regularization));
     vertex = voxel_vertex(grid, hit, origin, direction, surface, least_alpha);
     radiance += throughput * emitter_hit(grid, voxels_albedo, hit, surface, from, vertex.position, origin, direction,
-                                         scatter);
+                                         scatter, draws_at(bounce - 1u, limits));
     if (bounce > limits.bounces) break;
     bool may_end = cache_bound && limits.cache_from > 0u && bounce >= limits.cache_from;
     if (may_end && cached(hit, surface, direction, vertex, throughput, radiance)) break;
-    PerLobe direct = direct_light(grid, distance, voxels_normal, voxels_material, vertex, key, bounce);
+    PerLobe direct = direct_light(grid, distance, voxels_normal, voxels_material, vertex, key, bounce, true);
     radiance += throughput * (direct.diffuse + direct.specular);
     if (bounce == limits.bounces && !kRaysFindLight) break;
     vec4 u = path_random4(key, bounce, kDimensionScatter);
@@ -83,9 +87,10 @@ vec3 trace_incoming(Grid grid, PathVertex vertex, BsdfSample scatter, RandomKey 
   return radiance;
 }
 
-// Light that each lobe of the first hit scatters to the viewer.
+// Light that each lobe of the first hit scatters to the viewer; of what a reservoir stands for, what rays find by chance.
 PerLobe trace_path(Grid grid, PathVertex first, RandomKey key, PathLimits limits) {
-  PerLobe light = direct_light(grid, distance, voxels_normal, voxels_material, first, key, 0u);
+  PerLobe light = direct_light(grid, distance, voxels_normal, voxels_material, first, key, 0u,
+                               limits.reservoir_draws == 0.0);
   if (limits.bounces == 0u && !kRaysFindLight) return light;
   BsdfSample scatter = bsdf_sample(first.bsdf, first.incoming, path_random4(key, 0u, kDimensionScatter).xyz);
   if (scatter.weight == vec3(0.0)) return light;
