@@ -122,33 +122,48 @@ scene::Scene under_voxels() {
   return scene;
 }
 
-TEST_F(LightFormFactor, VoxelsOfALampAreFoundInFullByEachStrategy) {
+/// Frames of its light by a strategy, the samples chosen by reservoirs or drawn.
+std::vector<Images> voxel_lamp_frames(const std::string& strategy, bool reservoirs) {
+  const std::string shared = R"("strategy": ")" + strategy + "\"";
+  const std::string choosing = R"("faces": { "type": "emissive_faces", "in": { "voxels": "voxelize.voxels" } },
+      "reservoirs": { "type": "light_reservoirs", "in": { "surface": "gather.surface", "voxels": "voxelize.voxels",
+                      "faces": "faces.faces" }, "params": { )" +
+                               shared + " } }, ";
+  const std::string inputs =
+      std::string(R"(, "faces": "faces.faces")") + (reservoirs ? R"(, "reservoir": "reservoirs.reservoir")" : "");
+  const std::string params = R"("paths": 32, "bounces": 0, "nee": "voxel_faces", )" + shared;
+  GraphRunOptions options;
+  options.frames = 12;
+  return run_graph(graph_text(32, 32, 32, 32, choosing + trace_passes(66, params, inputs),
+                              R"("radiance": "trace.radiance", "position": "gather.surface.position")"),
+                   under_voxels(), options);
+}
+
+/// Mean over the pixels of the floor.
+double light_under_voxels(const Images& images) {
   // Rays leave the floor 1.01 voxels above it.
   const double height = 1 - 1.01 / 32;
-  for (const char* strategy : {"mis", "nee", "bsdf"}) {
-    const std::string text = graph_text(
-        32, 32, 32, 32,
-        R"("faces": { "type": "emissive_faces", "in": { "voxels": "voxelize.voxels" } }, )" +
-            trace_passes(
-                66, R"("paths": 32, "bounces": 0, "nee": "voxel_faces", "strategy": ")" + std::string(strategy) + "\"",
-                R"(, "faces": "faces.faces")"),
-        R"("radiance": "trace.radiance", "position": "gather.surface.position")");
-    GraphRunOptions options;
-    options.frames = 12;
-    const std::vector<Images> frames = run_graph(text, under_voxels(), options);
-    double exact = 0;
-    for (uint32_t y = 0; y < 32; ++y)
-      for (uint32_t x = 0; x < 32; ++x) {
-        const glm::dvec3 p = surface_position(frames.front(), x, y);
-        // The four rectangles that meet over the element.
-        for (const double a : {0.5 - p.x, 0.5 + p.x})
-          for (const double b : {0.5 - p.z, 0.5 + p.z})
-            exact += kRadiance * element_to_corner(a / height, b / height) / (32 * 32);
-      }
-    const SampleMean light = frame_estimate(frames, 1);
-    EXPECT_NEAR(light.mean(), exact, 3 * light.error() + 2e-4 * exact) << strategy;
-    EXPECT_LT(light.error(), 5e-3 * exact) << strategy;
-  }
+  double exact = 0;
+  for (uint32_t y = 0; y < 32; ++y)
+    for (uint32_t x = 0; x < 32; ++x) {
+      const glm::dvec3 p = surface_position(images, x, y);
+      // The four rectangles that meet over the element.
+      for (const double a : {0.5 - p.x, 0.5 + p.x})
+        for (const double b : {0.5 - p.z, 0.5 + p.z})
+          exact += kRadiance * element_to_corner(a / height, b / height) / (32 * 32);
+    }
+  return exact;
+}
+
+TEST_F(LightFormFactor, VoxelsOfALampAreFoundInFullByEachStrategy) {
+  for (const char* strategy : {"mis", "nee", "bsdf"})
+    for (const bool reservoirs : {false, true}) {
+      const std::vector<Images> frames = voxel_lamp_frames(strategy, reservoirs);
+      const double exact = light_under_voxels(frames.front());
+      const SampleMean light = frame_estimate(frames, 1);
+      EXPECT_NEAR(light.mean(), exact, 3 * light.error() + 2e-4 * exact) << strategy << reservoirs;
+      EXPECT_LT(light.error(), 5e-3 * exact) << strategy << reservoirs;
+    }
 }
 
 }  // namespace
