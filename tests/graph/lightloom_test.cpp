@@ -1,6 +1,9 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "framework/base/file.hpp"
 #include "framework/graph/verify.hpp"
@@ -40,15 +43,16 @@ TEST(LightloomGraph, LobesAreFilteredApartByTheSamePassTypes) {
   EXPECT_EQ(toy::source(graph, "modulate", "specular"), "upsample.specular");
 }
 
-TEST(LightloomGraph, TheRadianceCacheRunsWherePathsEndByIt) {
-  const Graph plain = lightloom_graph();
-  ASSERT_EQ(plain.culled.size(), 1u) << "all else has something to do";
-  EXPECT_EQ(plain.culled.front().pass, "cache");
+TEST(LightloomGraph, WhatIsOptionalRunsWhereItIsAskedForAlone) {
+  std::vector<std::string> culled;
+  for (const PassRemark& remark : lightloom_graph().culled) culled.push_back(remark.pass);
+  EXPECT_THAT(culled, testing::UnorderedElementsAre("cache", "moved", "reservoirs", "reuse"));
   LinkOptions options;
-  options.variants = {"cached"};
-  const Graph cached = lightloom_graph(options);
-  EXPECT_TRUE(cached.culled.empty());
-  EXPECT_EQ(toy::source(cached, "trace", "cache"), "cache.light");
+  options.variants = {"cached", "reservoirs"};
+  const Graph all = lightloom_graph(options);
+  EXPECT_TRUE(all.culled.empty());
+  EXPECT_EQ(toy::source(all, "trace", "cache"), "cache.light");
+  EXPECT_EQ(toy::source(all, "trace", "reservoir"), "reuse.reservoir");
 }
 
 TEST(LightloomGraph, WithoutSpecularReflectionItsChainFallsAway) {
@@ -84,7 +88,7 @@ TEST(LightloomGraph, EveryVariantAndEveryStageAloneLinksWithoutHazard) {
       EXPECT_EQ(verify(compile(lightloom_graph(options, specular)), {}, 1).violations, std::vector<std::string>{})
           << glob;
     }
-    for (const char* variant : {"no_denoise", "no_temporal", "raw", "paths15", "cached", "isotropic"}) {
+    for (const char* variant : {"no_denoise", "no_temporal", "raw", "paths15", "cached", "reservoirs", "isotropic"}) {
       LinkOptions options;
       options.variants = {variant};
       EXPECT_EQ(verify(compile(lightloom_graph(options, specular)), {}, 1).violations, std::vector<std::string>{})

@@ -131,7 +131,8 @@ std::vector<Images> voxel_lamp_frames(const std::string& strategy, bool reservoi
                                shared + " } }, ";
   const std::string inputs =
       std::string(R"(, "faces": "faces.faces")") + (reservoirs ? R"(, "reservoir": "reservoirs.reservoir")" : "");
-  const std::string params = R"("paths": 32, "bounces": 0, "nee": "voxel_faces", )" + shared;
+  const std::string params =
+      R"("paths": 32, "bounces": 0, "nee": "voxel_faces", )" + shared + (reservoirs ? R"(, "reservoir_draws": 1)" : "");
   GraphRunOptions options;
   options.frames = 12;
   return run_graph(graph_text(32, 32, 32, 32, choosing + trace_passes(66, params, inputs),
