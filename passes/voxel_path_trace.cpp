@@ -143,10 +143,10 @@ PassType make_voxel_path_trace() {
   type.reads = FrameState::camera | FrameState::seed | FrameState::lights;
   type.record = [](PassContext& context) {
     require_light_inputs(context);
-    if (context.connected("reservoir") && context.params().choice("nee") != "voxel_faces")
+    if (context.params().real("reservoir_draws") > 0 && context.params().choice("nee") != "voxel_faces")
       throw Error(ExitCode::invalid_input,
-                  "voxel_path_trace: the input 'reservoir' holds points on the faces of voxels",
-                  "set the param 'nee' to 'voxel_faces'");
+                  "voxel_path_trace: what 'reservoir_draws' asks for, input 'reservoir', are points on faces of voxels",
+                  "set the param 'nee' to 'voxel_faces', or 'reservoir_draws' to 0");
     context.dispatch({"voxel_path_trace.comp", context.output_extent("radiance"), {}});
   };
   return type;
